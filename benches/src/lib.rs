@@ -1,0 +1,1 @@
+//! Benchmarks of the onelight crates; `cargo bench` runs them.

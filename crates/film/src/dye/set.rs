@@ -1,0 +1,123 @@
+use onelight_spectra::{Nodes, Pchip, SpectralDistribution, SpectralShape, quantity::OpticalDensity};
+
+use crate::curve::DyeAmount;
+use crate::error::Error;
+use crate::layer::PerLayer;
+use crate::tail;
+
+/// Nodes nearer than this to the long end, in nm, give the slope of the tail.
+const TAIL_NODES_NM: f64 = 25.0;
+/// A tail falls by at least this much in ln per nm.
+const LEAST_FALL_PER_NM: f64 = 0.01;
+
+/// Spectral density of one unit of a dye (the talk's SDC), or of a film's base.
+///
+/// Between nodes a monotone cubic, clamped at 0. A dye goes on beyond its longest published wavelength with an
+/// exponential tail and holds its value below the shortest; a base holds at both ends.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DyeDensity {
+    density: Pchip,
+    /// Slope of ln(density) per nm beyond the last node; 0 holds the value.
+    tail: f64,
+}
+
+impl DyeDensity {
+    /// An image dye from published nodes (nm, density), less the `base` that the published curve contains.
+    ///
+    /// # Errors
+    /// If there are fewer than two nodes, or wavelengths do not increase.
+    pub fn dye(nodes: Nodes, base: f64) -> Result<Self, Error> {
+        let y: Vec<f64> = nodes.y.iter().map(|d| (d - base).max(0.0)).collect();
+        // The cubic goes through the published values; only its result is clamped.
+        let density = Pchip::new(nodes.x, nodes.y.iter().map(|d| d - base).collect())?;
+        let (_, last) = density.range();
+        let end = density.x().iter().copied().zip(y).filter(|&(nm, d)| last - nm < TAIL_NODES_NM && d > 0.0);
+        let end: Vec<(f64, f64)> = end.map(|(nm, d)| (nm, d.ln())).collect();
+        Ok(Self { density, tail: tail::slope(&end).min(-LEAST_FALL_PER_NM) })
+    }
+
+    /// The density of processed, unexposed film.
+    ///
+    /// # Errors
+    /// If there are fewer than two nodes, or wavelengths do not increase.
+    pub fn base(nodes: Nodes) -> Result<Self, Error> {
+        Ok(Self { density: Pchip::new(nodes.x, nodes.y)?, tail: 0.0 })
+    }
+
+    /// Density at a wavelength.
+    #[must_use]
+    pub fn at(&self, wavelength_nm: f64) -> f64 {
+        let beyond = (wavelength_nm - self.density.range().1).max(0.0);
+        self.density.at(wavelength_nm).max(0.0) * (self.tail * beyond).exp()
+    }
+
+    /// Density on a grid.
+    ///
+    /// # Errors
+    /// None for nodes that passed the constructor; the signature is that of the distribution.
+    pub fn on(&self, shape: SpectralShape) -> Result<SpectralDistribution<OpticalDensity>, Error> {
+        Ok(SpectralDistribution::from_fn(shape, |nm| self.at(nm))?)
+    }
+
+    /// Published range in nm.
+    #[must_use]
+    pub fn range_nm(&self) -> (f64, f64) {
+        self.density.range()
+    }
+
+    /// The nodes: nm and density.
+    #[must_use]
+    pub fn nodes(&self) -> (&[f64], &[f64]) {
+        (self.density.x(), self.density.y())
+    }
+}
+
+/// The dyes of a film on one wavelength grid: cyan is made by the red layer, magenta by the green, yellow by the blue.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dyes {
+    /// Density of one unit of each dye.
+    pub dyes: PerLayer<SpectralDistribution<OpticalDensity>>,
+    /// Density of the film without any dye; `None` for films whose curves are total densities (print, reversal).
+    pub d_min: Option<SpectralDistribution<OpticalDensity>>,
+}
+
+impl Dyes {
+    /// Spectral density of a film that holds these amounts.
+    #[must_use]
+    pub fn density(&self, amounts: PerLayer<DyeAmount>) -> SpectralDistribution<OpticalDensity> {
+        let [c, m, y] = self.dyes.as_ref().zip_map(amounts, |dye, amount| dye.scaled(amount.0)).to_array();
+        let sum = c.stacked_on(&m).stacked_on(&y);
+        match &self.d_min {
+            Some(base) => sum.stacked_on(base),
+            None => sum,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    fn nodes(y: &[f64]) -> Nodes {
+        let x = (0..y.len()).map(|i| 600.0 + 5.0 * i as f64).collect();
+        Nodes { x, y: y.to_vec(), lines: vec![1; y.len()] }
+    }
+
+    #[test]
+    fn an_exponential_goes_on_as_one() {
+        let y: Vec<f64> = (0..9).map(|i| (-0.1 * f64::from(i)).exp()).collect();
+        let dye = DyeDensity::dye(nodes(&y), 0.0).unwrap();
+        assert_relative_eq!(dye.at(740.0), (-2.8f64).exp(), max_relative = 1e-9);
+        assert_eq!(dye.at(500.0), 1.0);
+    }
+
+    #[test]
+    fn a_tail_never_rises_and_density_is_never_negative() {
+        let dye = DyeDensity::dye(nodes(&[-0.02, 0.5, 0.3, 0.4, 0.5]), 0.0).unwrap();
+        assert_relative_eq!(dye.at(720.0), 0.5 * (-1.0f64).exp(), max_relative = 1e-12);
+        assert_eq!(dye.at(600.0), 0.0);
+        let base = DyeDensity::base(nodes(&[0.2, 0.1])).unwrap();
+        assert_eq!(base.at(900.0), 0.1);
+    }
+}

@@ -1,0 +1,107 @@
+use nalgebra::{Matrix3, Vector3};
+use onelight_spectra::{SpectralDistribution, SpectralShape};
+
+use super::Dyes;
+use crate::curve::{AmountCurve, LogExposure};
+use crate::densitometry::Densitometry;
+use crate::error::{Error, Kind};
+use crate::layer::PerLayer;
+use crate::stock::{Stock, StockKind};
+
+/// Offsets along the wedge are at most this far apart, in log10 exposure.
+const STEP: f64 = 0.01;
+/// Newton's method ends when the densities are met this closely.
+const DENSITY_TOLERANCE: f64 = 1e-11;
+const MAX_ITERATIONS: usize = 60;
+
+/// Amounts along the neutral wedge: the same offset from `mid_grey` in all layers.
+pub(super) fn amounts(stock: &Stock, mid_grey: PerLayer<LogExposure>) -> Result<PerLayer<AmountCurve>, Error> {
+    let dyes = stock.dyes_on(SpectralShape::VISIBLE)?;
+    let reader = Reader::new(&dyes, stock.densitometry());
+    let base = match stock.kind() {
+        // Sheet and spectral curve disagree by some hundredths at D-min: keep the spectral one, add what the curve adds.
+        StockKind::Negative => {
+            let clear = reader.density(Vector3::zeros());
+            stock.characteristic().zip_map(PerLayer::from([clear.x, clear.y, clear.z]), |c, d| d - c.d_min().0)
+        }
+        StockKind::Reversal | StockKind::Print => PerLayer::all(0.0),
+    };
+    let (from, to) = range(stock, mid_grey);
+    let steps = ((to - from) / STEP).ceil().max(1.0);
+    let offsets: Vec<f64> = (0..=steps as usize).map(|i| from + (to - from) * i as f64 / steps).collect();
+    let mut found: [Vec<f64>; 3] = Default::default();
+    let mut amount = Vector3::repeat(0.5);
+    for &offset in &offsets {
+        let at = mid_grey.map(|h| LogExposure(h.0 + offset));
+        let target = stock.characteristic().zip_map(at, |curve, h| curve.density(h).0);
+        let target = Vector3::from(target.zip_map(base, |d, b| d + b).to_array());
+        amount = reader.unmix(target, amount).ok_or_else(|| Kind::Unmixing { stock: stock.id().to_owned(), offset })?;
+        for (curve, a) in found.iter_mut().zip(amount.iter()) {
+            curve.push(*a);
+        }
+    }
+    let direction = stock.kind().direction();
+    let curve =
+        |h: LogExposure, a: Vec<f64>| AmountCurve::new(offsets.iter().map(|o| h.0 + o).collect(), &a, direction);
+    mid_grey.zip_map(PerLayer::from(found), curve).try_map(|curve, _| curve)
+}
+
+fn range(stock: &Stock, mid_grey: PerLayer<LogExposure>) -> (f64, f64) {
+    let ends = stock.characteristic().zip_map(mid_grey, |curve, h| {
+        let (first, last) = curve.range();
+        (first.0 - h.0, last.0 - h.0)
+    });
+    let [a, b, c] = ends.to_array();
+    (a.0.min(b.0).min(c.0), a.1.max(b.1).max(c.1))
+}
+
+/// A densitometer over three dyes: rows ready for the inner loop.
+struct Reader {
+    /// Per wavelength: the three unit densities, the base, the three responses.
+    rows: Vec<([f64; 3], f64, [f64; 3])>,
+}
+
+impl Reader {
+    fn new(dyes: &Dyes, densitometry: Densitometry) -> Self {
+        let [c, m, y] = dyes.dyes.as_ref().map(SpectralDistribution::values).to_array();
+        let [r, g, b] = densitometry.responses().as_ref().map(SpectralDistribution::values).to_array();
+        let base = |i: usize| dyes.d_min.as_ref().map_or(0.0, |d| d.values()[i]);
+        let rows = (0..c.len()).map(|i| ([c[i], m[i], y[i]], base(i), [r[i], g[i], b[i]]));
+        Self { rows: rows.filter(|(_, _, response)| response.iter().any(|&v| v > 0.0)).collect() }
+    }
+
+    fn density(&self, amount: Vector3<f64>) -> Vector3<f64> {
+        self.density_and_slope(amount).0
+    }
+
+    /// Densities, and their derivative by the amounts.
+    fn density_and_slope(&self, amount: Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
+        let (mut passed, mut weighted) = (Vector3::zeros(), Matrix3::zeros());
+        for (dye, base, response) in &self.rows {
+            let dye = Vector3::from(*dye);
+            let light = Vector3::from(*response) * 10f64.powf(-(base + dye.dot(&amount)));
+            passed += light;
+            weighted += light * dye.transpose();
+        }
+        let slope = Matrix3::from_fn(|i, j| weighted[(i, j)] / passed[i]);
+        (passed.map(|p: f64| -p.log10()), slope)
+    }
+
+    fn unmix(&self, target: Vector3<f64>, start: Vector3<f64>) -> Option<Vector3<f64>> {
+        let mut amount = start;
+        for _ in 0..MAX_ITERATIONS {
+            let (density, slope) = self.density_and_slope(amount);
+            let miss = density - target;
+            if miss.amax() < DENSITY_TOLERANCE {
+                return Some(amount);
+            }
+            // Far steps overshoot where one dye hides another.
+            let step = slope.lu().solve(&miss)?;
+            amount -= step * (1.0 / step.amax()).min(1.0);
+            if !amount.iter().all(|a| a.is_finite()) {
+                return None;
+            }
+        }
+        None
+    }
+}

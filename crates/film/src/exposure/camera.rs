@@ -1,0 +1,99 @@
+use crate::error::{Error, Kind};
+
+/// A real camera: what its settings let through to the film.
+///
+/// ```
+/// use onelight_film::Camera;
+/// // A 4000 cd/m^2 sky at 1/60 s and f/8: H in lux s.
+/// let h = Camera::new(1.0 / 60.0, 8.0)?.focal_plane_exposure(4000.0);
+/// assert!((h - 0.65 * 4000.0 / 60.0 / 64.0).abs() < 1e-12);
+/// # Ok::<(), onelight_film::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    shutter_s: f64,
+    f_number: f64,
+}
+
+/// Fraction of the light that a usual lens brings to the film, vignetting and cos^4 included (\[ISO2720\]: 0.65).
+const LENS_TRANSMISSION: f64 = 0.65;
+
+impl Camera {
+    /// Shutter time in s and f-number.
+    ///
+    /// # Errors
+    /// If either is not a finite number above 0.
+    pub fn new(shutter_s: f64, f_number: f64) -> Result<Self, Error> {
+        Ok(Self { shutter_s: positive("shutter time in s", shutter_s)?, f_number: positive("f-number", f_number)? })
+    }
+
+    /// Exposure of the film: H = q L t / N^2. Luminance in cd/m^2 gives lux s, radiance in W/(m^2 sr) gives J/m^2.
+    #[must_use]
+    pub fn focal_plane_exposure(self, luminance: f64) -> f64 {
+        LENS_TRANSMISSION * luminance * self.shutter_s / (self.f_number * self.f_number)
+    }
+}
+
+/// The scale of a frame buffer, step 2 of \[Gotanda2010\] taken literally: c = 1000 t / (F ISO/100), so that the stored
+/// number is in mJ/m^2 per F per ISO 100 and keeps its size whatever the camera's settings.
+///
+/// `F` divides the exposure as it stands; physically that is the square of the f-number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrameBufferScale {
+    factor: f64,
+    speed: f64,
+}
+
+impl FrameBufferScale {
+    /// Shutter time in s, exposure divisor F, exposure index (ISO).
+    ///
+    /// # Errors
+    /// If one is not a finite number above 0.
+    pub fn new(shutter_s: f64, exposure_divisor: f64, exposure_index: f64) -> Result<Self, Error> {
+        let t = positive("shutter time in s", shutter_s)?;
+        let f = positive("exposure divisor F", exposure_divisor)?;
+        let speed = positive("exposure index", exposure_index)? / 100.0;
+        Ok(Self { factor: 1000.0 * t / (f * speed), speed })
+    }
+
+    /// What the frame buffer stores for an irradiance in W/m^2.
+    #[must_use]
+    pub fn stored(self, w_per_m2: f64) -> f64 {
+        w_per_m2 * self.factor
+    }
+
+    /// The radiant exposure in mJ/m^2 that the film gets for a stored value.
+    #[must_use]
+    pub fn film_exposure_mj_per_m2(self, stored: f64) -> f64 {
+        stored * self.speed
+    }
+}
+
+fn positive(what: &'static str, found: f64) -> Result<f64, Error> {
+    let expected = "a finite number above 0";
+    if found.is_finite() && found > 0.0 { Ok(found) } else { Err(Kind::Camera { what, found, expected }.into()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_stop_is_a_stop() {
+        let h = |t, n| Camera::new(t, n).unwrap().focal_plane_exposure(100.0);
+        assert_relative_eq!(h(1.0 / 30.0, 4.0), 2.0 * h(1.0 / 60.0, 4.0));
+        assert_relative_eq!(h(1.0 / 60.0, 4.0), 2.0 * h(1.0 / 60.0, 4.0 * 2f64.sqrt()), max_relative = 1e-12);
+        assert!(Camera::new(0.0, 4.0).is_err() && Camera::new(1.0, f64::NAN).is_err());
+    }
+
+    #[test]
+    fn film_speed_cancels_in_the_film() {
+        for iso in [50.0, 100.0, 800.0] {
+            let scale = FrameBufferScale::new(1.0 / 60.0, 8.0, iso).unwrap();
+            // t/F in seconds, in mJ.
+            assert_relative_eq!(scale.film_exposure_mj_per_m2(scale.stored(3.0)), 3000.0 / 480.0, max_relative = 1e-12);
+        }
+        assert_relative_eq!(FrameBufferScale::new(0.01, 4.0, 200.0).unwrap().stored(1.0), 1.25, max_relative = 1e-12);
+    }
+}

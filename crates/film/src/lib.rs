@@ -1,0 +1,54 @@
+//! Photographic film as its data sheet describes it: from light to dye.
+//!
+//! - [`Stock`]: a film, read from the text of its data sheet
+//! - [`ExposureMatrix`]: scene RGB to the exposure of the three layers; [`Camera`], [`FrameBufferScale`]: physical units
+//! - [`CharacteristicCurve`]: density over log exposure; [`Densitometry`]: status M and A
+//! - [`DyeModel`]: characteristic curves to amounts of dye; [`Dyes`]: amounts to spectral density
+//!
+//! ```
+//! use onelight_film::{DyeModel, ExposureMatrix, LogExposure, Matching, PerLayer, SheetText, Stock};
+//! use onelight_spectra::{Basis, Reconstruction, SpectralShape};
+//!
+//! let files = onelight_stocks::find("kodak-5207").ok_or("no such stock")?;
+//! let stock = Stock::parse(&SheetText {
+//!     id: files.id,
+//!     stock_toml: files.stock_toml,
+//!     sensitivity_csv: files.sensitivity_csv,
+//!     characteristic_csv: files.characteristic_csv,
+//!     dye_density_csv: files.dye_density_csv,
+//! })?;
+//!
+//! // A grey card, exposed: the layers, the dye they make, the light that passes.
+//! let mid_grey = PerLayer::all(stock.mid_grey()?);
+//! let basis = Basis::new(Reconstruction::Smooth)?;
+//! let exposure = ExposureMatrix::new(&stock, &basis, Matching::Grey, mid_grey)?.expose([0.18; 3]);
+//! let curves = DyeModel::Wedge.amounts(&stock, mid_grey)?;
+//! let amounts = curves.as_ref().zip_map(exposure, |curve, e| curve.amount(LogExposure::of(e)));
+//! let film = stock.dyes_on(SpectralShape::VISIBLE)?.density(amounts).transmittance();
+//! let read = stock.densitometry().density(&film);
+//! assert!((read.red.0 - 0.89).abs() < 0.05, "status M red of a grey card, {read:?}");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Out of scope
+//! Printers and projectors, look-up tables, displays; grain, halation and inter-layer effects, which data sheets do not
+//! give. Keys in square brackets are resolved in REFERENCES.md at the top of the repository.
+
+mod curve;
+mod densitometry;
+mod dye;
+mod error;
+mod exposure;
+mod layer;
+mod sensitivity;
+mod stock;
+mod tail;
+
+pub use curve::{AmountCurve, CharacteristicCurve, Density, Direction, DyeAmount, EXPOSURE_FLOOR, LogExposure};
+pub use densitometry::Densitometry;
+pub use dye::{DyeDensity, DyeModel, Dyes};
+pub use error::Error;
+pub use exposure::{Camera, ExposureMatrix, FrameBufferScale, Matching};
+pub use layer::{LAYER_NAMES, PerLayer};
+pub use sensitivity::{SpectralSensitivity, Tail};
+pub use stock::{ExposureAxis, MidGrey, Normalisation, Origin, SheetText, Stock, StockKind, Uncertainty};

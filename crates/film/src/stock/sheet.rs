@@ -1,0 +1,140 @@
+//! `stock.toml` as written.
+
+use serde::Deserialize;
+
+use crate::error::{Error, Kind};
+use crate::layer::PerLayer;
+
+use super::{ExposureAxis, MidGrey, Origin, StockKind};
+use crate::densitometry::Densitometry;
+
+/// The version of the format that this crate reads.
+pub(super) const VERSION: u32 = 1;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Sheet {
+    pub(super) version: u32,
+    pub(super) id: String,
+    pub(super) name: String,
+    pub(super) maker: String,
+    pub(super) kind: StockKind,
+    pub(super) exposure_index: Option<f64>,
+    pub(super) balance: String,
+    pub(super) process: String,
+    pub(super) year: u16,
+    pub(super) sheet: String,
+    pub(super) sensitivity: SensitivitySection,
+    pub(super) characteristic: CharacteristicSection,
+    pub(super) dye_density: DyeSection,
+    pub(super) aim: Option<AimSection>,
+    pub(super) uncertainty: Uncertainty,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SensitivitySection {
+    pub(super) origin: Origin,
+    pub(super) criterion: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CharacteristicSection {
+    pub(super) origin: Origin,
+    pub(super) densitometry: Densitometry,
+    pub(super) axis: ExposureAxis,
+    pub(super) mid_grey: Option<MidGrey>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DyeSection {
+    pub(super) origin: Origin,
+    pub(super) normalisation: Normalisation,
+    #[serde(default)]
+    pub(super) base: f64,
+    pub(super) d_min: Option<Origin>,
+}
+
+/// What one unit of a dye is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Normalisation {
+    /// A peak density of 1.0.
+    Peak,
+    /// The amount that, with the two others, makes the sheet's neutral.
+    Neutral,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct AimSection {
+    pub(super) origin: Origin,
+    pub(super) status_a: [f64; 3],
+}
+
+/// How far the figures of a stock can be trusted: rms per layer or dye.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Uncertainty {
+    /// How the figures were found, in words.
+    pub origin: String,
+    /// log10 of sensitivity: red, green, blue.
+    pub sensitivity: [f64; 3],
+    /// Density of the characteristic curves: red, green, blue.
+    pub characteristic: [f64; 3],
+    /// Density of cyan, magenta, yellow; `None` where the dyes are derived.
+    pub dye_density: Option<[f64; 3]>,
+}
+
+pub(super) fn parse(file: &str, text: &str) -> Result<Sheet, Error> {
+    let problem = |line: usize, problem: String| Error::from(Kind::Sheet { file: file.to_owned(), line, problem });
+    let sheet: Sheet = toml::from_str(text).map_err(|error| {
+        let line = error.span().map_or(1, |span| text[..span.start].matches('\n').count() + 1);
+        problem(line, error.message().trim_end().replace('\n', " "))
+    })?;
+    if sheet.version != VERSION {
+        return Err(problem(line_of(text, "version"), format!("version: found {}, expected {VERSION}", sheet.version)));
+    }
+    let numbers = [
+        ("exposure_index", sheet.exposure_index, 0.1..=1e6),
+        ("criterion", sheet.sensitivity.criterion, 0.01..=3.0),
+        ("base", Some(sheet.dye_density.base), 0.0..=1.0),
+        ("status_a", sheet.aim.as_ref().map(|aim| aim.status_a[0]), 0.0..=5.0),
+        ("status_a", sheet.aim.as_ref().map(|aim| aim.status_a[1]), 0.0..=5.0),
+        ("status_a", sheet.aim.as_ref().map(|aim| aim.status_a[2]), 0.0..=5.0),
+    ];
+    for (name, value, allowed) in numbers {
+        if let Some(value) = value
+            && !allowed.contains(&value)
+        {
+            let expected = format!("{name}: found {value}, expected {} to {}", allowed.start(), allowed.end());
+            return Err(problem(line_of(text, name), expected));
+        }
+    }
+    let needs = match sheet.kind {
+        StockKind::Print if sheet.aim.is_none() => Some("a print film needs [aim]"),
+        StockKind::Negative | StockKind::Reversal if sheet.characteristic.mid_grey.is_none() => {
+            Some("a camera film needs mid_grey in [characteristic]")
+        }
+        StockKind::Negative | StockKind::Reversal if sheet.aim.is_some() => Some("only print films have an [aim]"),
+        _ if sheet.characteristic.mid_grey == Some(MidGrey::Speed) && sheet.exposure_index.is_none() => {
+            Some("mid_grey = \"speed\" needs an exposure_index")
+        }
+        _ => None,
+    };
+    match needs {
+        Some(needed) => Err(problem(line_of(text, "kind"), needed.to_owned())),
+        None => Ok(sheet),
+    }
+}
+
+/// Line of the first assignment to `key`, 1 if there is none.
+fn line_of(text: &str, key: &str) -> usize {
+    text.lines().position(|line| line.trim_start().starts_with(key)).map_or(1, |i| i + 1)
+}
+
+pub(super) fn aim(section: &AimSection) -> PerLayer<f64> {
+    PerLayer::from(section.status_a)
+}

@@ -1,0 +1,3 @@
+//! The compiled forms: what stands between a scene-linear pixel and the baked numbers.
+
+pub(crate) mod plain;

@@ -1,0 +1,177 @@
+mod header;
+mod lines;
+
+use std::io::BufRead;
+
+use super::CubeFile;
+use crate::error::{Error, TextProblem};
+use header::{Header, Layout};
+use lines::Lines;
+
+/// Entries reserved at once: a size in a header is a claim until its lines have come.
+const RESERVED: usize = 1 << 16;
+
+impl CubeFile {
+    /// [`CubeFile::read`] from text.
+    ///
+    /// # Errors
+    ///
+    /// As [`CubeFile::read`], but for failing input.
+    pub fn parse(text: &str) -> Result<Self, Error> {
+        Self::read(text.as_bytes())
+    }
+
+    /// Reads a file, to its end.
+    ///
+    /// Keywords count in any case. Line ends may be LF or CRLF, numbers may be separated by spaces or tabs, a
+    /// title may lack its quotes, lines starting with `#` are comments wherever they stand, and blank lines are
+    /// skipped. In a file with two tables the lines of the 1D table come first.
+    ///
+    /// # Errors
+    ///
+    /// If the input fails, or a line is not as the format wants it: an unknown or repeated keyword, one after
+    /// the first data line, a size out of bounds (see [`crate::Lut1d`], [`crate::Lut3d`]), a wrong number of
+    /// numbers or of data lines, or a number that is not finite in `f32`. The limits of this type keep a hostile
+    /// file from taking more memory than its own bytes warrant.
+    pub fn read(input: impl BufRead) -> Result<Self, Error> {
+        let mut lines = Lines::new(input);
+        let mut header = Header::default();
+        let mut comments = Vec::new();
+        let mut comment_bytes = 0;
+        let mut other_lines = 0;
+        let mut body: Option<Body> = None;
+
+        while let Some(line) = lines.next_line()? {
+            let number = line.number;
+            let fail = |problem| Error::text(number, problem);
+            let text = line.text.trim();
+            if starts_as_data(text) {
+                let body = match &mut body {
+                    Some(body) => body,
+                    None => body.insert(Body::new(header.layout().map_err(fail)?)),
+                };
+                body.push(text).map_err(fail)?;
+                continue;
+            }
+            other_lines += 1;
+            if other_lines > Self::MAX_OTHER_LINES {
+                let max = Self::MAX_OTHER_LINES;
+                return Err(fail(TextProblem::TooManyOtherLines { max }));
+            }
+            if let Some(comment) = text.strip_prefix('#') {
+                comment_bytes += comment.len();
+                if comment_bytes > Self::MAX_COMMENT_BYTES {
+                    let max = Self::MAX_COMMENT_BYTES;
+                    return Err(fail(TextProblem::TooManyCommentBytes { max }));
+                }
+                comments.push(comment.strip_prefix(' ').unwrap_or(comment).to_owned());
+            } else if !text.is_empty() {
+                let keyword = header.keyword(text).map_err(fail)?;
+                if body.is_some() {
+                    return Err(fail(TextProblem::KeywordAfterData { keyword }));
+                }
+            }
+        }
+
+        let end = |problem| Error::text(lines.last_number(), problem);
+        let body = match body {
+            Some(body) => body,
+            None => Body::new(header.layout().map_err(|problem| match problem {
+                TextProblem::DataBeforeSize => end(TextProblem::NoTable),
+                other => end(other),
+            })?),
+        };
+        body.check_complete().map_err(end)?;
+        let title = match header.title() {
+            Some(title) => title,
+            None => title_in_comments(&body.layout, &mut comments),
+        };
+        let file = body.layout.file(body.entries)?;
+        Ok(file.with_title(&title).with_comments(comments))
+    }
+}
+
+/// The data lines so far, of both tables in one row.
+struct Body {
+    layout: Layout,
+    expected: usize,
+    entries: Vec<[f32; 3]>,
+}
+
+impl Body {
+    fn new(layout: Layout) -> Self {
+        let expected = layout.data_lines();
+        Self { layout, expected, entries: Vec::with_capacity(expected.min(RESERVED)) }
+    }
+
+    fn push(&mut self, text: &str) -> Result<(), TextProblem> {
+        let expected = self.expected;
+        if self.entries.len() == expected {
+            return Err(TextProblem::TooManyDataLines { expected });
+        }
+        self.entries.push(numbers("a data line", text)?);
+        Ok(())
+    }
+
+    fn check_complete(&self) -> Result<(), TextProblem> {
+        let [found, expected] = [self.entries.len(), self.expected];
+        if found == expected { Ok(()) } else { Err(TextProblem::Truncated { found, expected }) }
+    }
+}
+
+/// Takes the title out of the first comment, where [`CubeFile::write`] puts it in a file with two tables.
+fn title_in_comments(layout: &Layout, comments: &mut Vec<String>) -> String {
+    let title = match (layout, comments.first()) {
+        (Layout::Both(..), Some(first)) => {
+            first.strip_prefix("TITLE \"").and_then(|rest| rest.strip_suffix('"')).map(str::to_owned)
+        }
+        _ => None,
+    };
+    if title.is_some() {
+        comments.remove(0);
+    }
+    title.unwrap_or_default()
+}
+
+/// Whether a line holds numbers rather than a keyword; "nan" and "inf" are numbers, though bad ones.
+fn starts_as_data(text: &str) -> bool {
+    match text.bytes().next() {
+        Some(b'0'..=b'9' | b'-' | b'+' | b'.') => true,
+        Some(b'n' | b'N' | b'i' | b'I') => {
+            text.split_whitespace().next().is_some_and(|word| word.parse::<f32>().is_ok())
+        }
+        _ => false,
+    }
+}
+
+/// Exactly `N` finite numbers.
+fn numbers<const N: usize>(what: &'static str, text: &str) -> Result<[f32; N], TextProblem> {
+    let mut values = [0.0; N];
+    let mut words = text.split_ascii_whitespace();
+    for (found, value) in values.iter_mut().enumerate() {
+        let Some(word) = words.next() else {
+            return Err(TextProblem::NumberCount { what, found, expected: N });
+        };
+        *value = match word.parse::<f32>() {
+            Ok(value) if value.is_finite() => value,
+            Ok(_) => {
+                let found = quoted(word);
+                return Err(TextProblem::NotFinite { what, found });
+            }
+            Err(_) => {
+                let found = quoted(word);
+                return Err(TextProblem::NotANumber { what, found });
+            }
+        };
+    }
+    match words.count() {
+        0 => Ok(values),
+        more => Err(TextProblem::NumberCount { what, found: N + more, expected: N }),
+    }
+}
+
+/// A word as it goes into a message.
+fn quoted(word: &str) -> String {
+    const SHOWN: usize = 40;
+    word.chars().take(SHOWN).collect()
+}

@@ -1,0 +1,63 @@
+//! Look-up tables as bare numbers: a map `[f32; 3] -> [f32; 3]`, baked once and applied to every pixel.
+//!
+//! - [`Shaper`] turns a scene-linear value in `[0, max]` into a table coordinate in `[0, 1]` and back;
+//! - [`Lut3d`] and [`Lut1d`] are the tables, [`Interpolation`] how a 3D table is read between its nodes;
+//! - [`bake()`] fills a [`Lut3d`] from any closure, [`PlainLut`] applies it to pixels;
+//! - [`deviation()`] measures one map against another under a difference given as a closure,
+//!   over colours such as those of [`SceneSampler`];
+//! - [`CubeFile`] reads and writes `.cube`.
+//!
+//! What the three numbers of an entry mean (display code values, densities, anything else) is the caller's
+//! affair: entries come out as they went in.
+//!
+//! Arithmetic is `f64` until a table is filled and `f32` from then on. Constructors check their input; after
+//! that nothing fails. An input that is NaN reads as 0, one outside a table's domain reads as the nearest end.
+//!
+//! ```
+//! use onelight_lut::{bake, CubeFile, Interpolation, PlainLut, Shaper};
+//!
+//! // A toy tone curve; a real look would come from a film simulation.
+//! let look = |rgb: [f64; 3]| rgb.map(|u| u / (u + 0.18));
+//!
+//! let shaper = Shaper::log2(0.02, 4.0)?;
+//! let table = bake(17, &shaper, look, |_nodes_done| {})?;
+//! let lut = PlainLut::new(shaper, table, Interpolation::Tetrahedral);
+//! assert!((lut.apply([0.18; 3])[0] - 0.5).abs() < 2e-3);
+//!
+//! let mut file = Vec::new();
+//! CubeFile::from_plain(&lut, CubeFile::SHAPER_POINTS)?
+//!     .with_title("toy")
+//!     .with_comments(["input: scene-linear, 1 is diffuse white"])
+//!     .write(&mut file)?;
+//! assert!(file.starts_with(b"# TITLE \"toy\"\n"));
+//! # Ok::<(), onelight_lut::Error>(())
+//! ```
+//!
+//! # Out of scope
+//!
+//! Colour science (what a difference between two colours is arrives as a closure), images, paths and files
+//! (readers and writers are passed in), and applying a table on a GPU.
+
+mod bake;
+mod deviation;
+mod domain;
+mod error;
+mod form;
+mod format;
+mod interpolate;
+mod lut1d;
+mod lut3d;
+mod scene_sampler;
+mod shaper;
+
+pub use bake::bake;
+pub use deviation::{Deviation, deviation};
+pub use domain::Domain;
+pub use error::Error;
+pub use form::plain::PlainLut;
+pub use format::cube::CubeFile;
+pub use interpolate::Interpolation;
+pub use lut1d::Lut1d;
+pub use lut3d::Lut3d;
+pub use scene_sampler::SceneSampler;
+pub use shaper::{Shaper, ShaperKind, texel_centre};

@@ -1,0 +1,253 @@
+use nalgebra::{Matrix3, Vector3};
+use onelight_film::{AmountCurve, DyeAmount, ExposureMatrix, LogExposure, PerLayer, Stock, StockKind};
+use onelight_printing::{
+    Duplication, LitDuplication, PrinterLights, Projection, print_mid_grey, print_target, reversal_target,
+};
+use onelight_spectra::quantity::Power;
+use onelight_spectra::{
+    Basis, Chromaticity, DisplayDifference, RgbSpace, SpectralDistribution, SpectralShape, TransferCurve,
+};
+
+use crate::error::{Error, Kind};
+use crate::process::Process;
+use crate::stocks::stock;
+
+/// The brightest scene value: more would overflow float32 in the exposure matrix.
+pub const SCENE_MAX: f64 = 1e30;
+
+/// A [`Process`] compiled: every step in float64 at 1 nm. The measure of all faster forms.
+///
+/// ```
+/// let film = onelight::Process::default().compile()?;
+/// let grey = film.develop_linear([0.18; 3]);
+/// assert!(grey.iter().all(|v| (v - 10f64.powf(-0.7)).abs() < 1e-6));
+/// # Ok::<(), onelight::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Reference {
+    to_srgb: Matrix3<f64>,
+    exposure: ExposureMatrix,
+    mid_grey: PerLayer<LogExposure>,
+    camera: PerLayer<AmountCurve>,
+    print: Option<PrintStep>,
+    projection: Projection,
+    coding: TransferCurve,
+    output: RgbSpace,
+}
+
+/// What printing adds.
+#[derive(Debug, Clone)]
+struct PrintStep {
+    duplication: LitDuplication,
+    lights: PrinterLights,
+    target: PerLayer<LogExposure>,
+    curves: PerLayer<AmountCurve>,
+}
+
+/// Every value on the way of one colour: where it comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stages {
+    /// Scene-linear, sRGB primaries, not negative.
+    pub scene: [f64; 3],
+    /// Exposure of the camera film.
+    pub exposure: PerLayer<LogExposure>,
+    /// Dye in the camera film.
+    pub amounts: PerLayer<DyeAmount>,
+    /// Exposure and dye of the print, if there is one.
+    pub print: Option<(PerLayer<LogExposure>, PerLayer<DyeAmount>)>,
+    /// The light from the screen; Y of the bare lamp is 1.
+    pub spectrum: SpectralDistribution<Power>,
+    /// Its tristimulus values.
+    pub xyz: [f64; 3],
+    /// Display-linear RGB; may be negative or above 1.
+    pub linear: [f64; 3],
+    /// Display-coded RGB.
+    pub coded: [f64; 3],
+}
+
+impl Reference {
+    pub(crate) fn new(process: &Process) -> Result<Self, Error> {
+        let film = stock(&process.camera)?;
+        let print = process.print.as_deref().map(stock).transpose()?;
+        check(&film, print.as_ref())?;
+        let output = process.output_space.space();
+        let basis = Basis::new(process.reconstruction)?;
+        let own_grey = PerLayer::all(film.mid_grey()?);
+        let camera = process.dyes.amounts(&film, own_grey)?;
+        let shown = print.as_ref().unwrap_or(&film);
+        let projection = Projection::new(shown.dyes_on(SpectralShape::VISIBLE)?, process.projector, &output)?;
+        let mid_grey = match print {
+            Some(_) => own_grey,
+            None => reversal_target(process.aim, &film, own_grey, camera.as_ref(), &projection)?,
+        };
+        let print = match &print {
+            Some(print) => Some(PrintStep::new(process, &film, print, &camera, mid_grey, &projection)?),
+            None => None,
+        };
+        let white = Chromaticity::black_body_6500_k();
+        Ok(Self {
+            to_srgb: process.input_space.space().to_about(&RgbSpace::SRGB, white)?,
+            exposure: ExposureMatrix::new(&film, &basis, process.matching, mid_grey)?,
+            mid_grey,
+            camera,
+            print,
+            projection,
+            coding: process.output_coding,
+            output,
+        })
+    }
+
+    /// Scene-linear RGB to display-coded RGB, not clipped.
+    ///
+    /// Every input gives a finite result: NaN counts as 0, each channel is held to ±[`SCENE_MAX`], and what is negative in
+    /// sRGB primaries counts as 0.
+    #[must_use]
+    pub fn develop(&self, rgb: [f64; 3]) -> [f64; 3] {
+        self.develop_linear(rgb).map(|v| self.coding.encode(v))
+    }
+
+    /// Scene-linear RGB to display-linear RGB, not clipped. Hard inputs as in [`Reference::develop`].
+    #[must_use]
+    pub fn develop_linear(&self, rgb: [f64; 3]) -> [f64; 3] {
+        self.develop_exposure(self.exposure.expose(self.scene(rgb)))
+    }
+
+    /// Exposure of the three layers (not its logarithm; matching vector included) to display-linear RGB: for light whose
+    /// spectrum is known.
+    #[must_use]
+    pub fn develop_exposure(&self, exposure: PerLayer<f64>) -> [f64; 3] {
+        let amounts = self.camera_amounts(exposure.map(LogExposure::of));
+        let shown = match &self.print {
+            Some(print) => print.amounts(print.duplication.expose(amounts)),
+            None => amounts,
+        };
+        self.projection.rgb(shown)
+    }
+
+    /// Every value on the way.
+    #[must_use]
+    pub fn stages(&self, rgb: [f64; 3]) -> Stages {
+        let scene = self.scene(rgb);
+        let exposure = self.exposure.expose(scene).map(LogExposure::of);
+        let amounts = self.camera_amounts(exposure);
+        let print = self.print.as_ref().map(|print| {
+            let exposure = print.duplication.expose(amounts);
+            (exposure, print.amounts(exposure))
+        });
+        let shown = print.map_or(amounts, |(_, amounts)| amounts);
+        let xyz = self.projection.xyz(shown);
+        let linear = self.projection.rgb_of(&xyz);
+        Stages {
+            scene,
+            exposure,
+            amounts,
+            print,
+            spectrum: self.projection.spectrum(shown),
+            xyz: xyz.data.0[0],
+            linear,
+            coded: linear.map(|v| self.coding.encode(v)),
+        }
+    }
+
+    /// The 3x3 from scene RGB (sRGB primaries) to exposure, and its matching vector.
+    #[must_use]
+    pub fn exposure_matrix(&self) -> &ExposureMatrix {
+        &self.exposure
+    }
+
+    /// Where an 18 % grey card lies on the camera film's curves.
+    #[must_use]
+    pub fn mid_grey(&self) -> PerLayer<LogExposure> {
+        self.mid_grey
+    }
+
+    /// Amount of dye over exposure: the camera film's layers.
+    #[must_use]
+    pub fn camera_curves(&self) -> PerLayer<&AmountCurve> {
+        self.camera.as_ref()
+    }
+
+    /// Amount of dye over exposure: the print's layers.
+    #[must_use]
+    pub fn print_curves(&self) -> Option<PerLayer<&AmountCurve>> {
+        self.print.as_ref().map(|print| print.curves.as_ref())
+    }
+
+    /// The calibrated lights of the printer.
+    #[must_use]
+    pub fn printer_lights(&self) -> Option<PrinterLights> {
+        self.print.as_ref().map(|print| print.lights)
+    }
+
+    /// The exposure that a grey card must give the print.
+    #[must_use]
+    pub fn print_target(&self) -> Option<PerLayer<LogExposure>> {
+        self.print.as_ref().map(|print| print.target)
+    }
+
+    /// The colour difference between two results, display-linear.
+    ///
+    /// # Errors
+    /// None for the built-in spaces.
+    pub fn difference(&self) -> Result<DisplayDifference, Error> {
+        Ok(DisplayDifference::new(&self.output)?)
+    }
+
+    /// The transfer curve of [`Reference::develop`].
+    #[must_use]
+    pub fn coding(&self) -> TransferCurve {
+        self.coding
+    }
+
+    fn scene(&self, rgb: [f64; 3]) -> [f64; 3] {
+        let finite = rgb.map(|v| if v.is_nan() { 0.0 } else { v.clamp(-SCENE_MAX, SCENE_MAX) });
+        (self.to_srgb * Vector3::from(finite)).data.0[0].map(|v| v.clamp(0.0, SCENE_MAX))
+    }
+
+    fn camera_amounts(&self, exposure: PerLayer<LogExposure>) -> PerLayer<DyeAmount> {
+        self.camera.as_ref().zip_map(exposure, AmountCurve::amount)
+    }
+}
+
+impl PrintStep {
+    fn new(
+        process: &Process,
+        negative: &Stock,
+        print: &Stock,
+        camera: &PerLayer<AmountCurve>,
+        mid_grey: PerLayer<LogExposure>,
+        projection: &Projection,
+    ) -> Result<Self, Error> {
+        let curves = process.dyes.amounts(print, print_mid_grey(print)?)?;
+        let target = print_target(process.aim, print, curves.as_ref(), projection)?;
+        let grey = camera.as_ref().zip_map(mid_grey, AmountCurve::amount);
+        let duplication = Duplication::new(negative, print, process.printer())?;
+        let lights = duplication.calibrate(grey, target)?;
+        Ok(Self { duplication: duplication.lit(lights), lights, target, curves })
+    }
+
+    fn amounts(&self, exposure: PerLayer<LogExposure>) -> PerLayer<DyeAmount> {
+        self.curves.as_ref().zip_map(exposure, AmountCurve::amount)
+    }
+}
+
+/// Whether the films fit together.
+fn check(film: &Stock, print: Option<&Stock>) -> Result<(), Error> {
+    let camera = film.id();
+    let refuse = |sentence: String| Err(Kind::Contradiction(sentence).into());
+    match (film.kind(), print.map(|p| (p.kind(), p.id()))) {
+        (StockKind::Print, _) => {
+            refuse(format!("{camera} is a print film, expected a negative or reversal film in the camera"))
+        }
+        (StockKind::Negative, None) => {
+            refuse(format!("{camera} is a negative, expected a print film to see it on, such as kodak-2383"))
+        }
+        (StockKind::Reversal, Some((_, print))) => refuse(format!(
+            "{camera} is a reversal film and is shown as it is, expected no print film instead of {print}"
+        )),
+        (StockKind::Negative, Some((StockKind::Negative | StockKind::Reversal, print))) => {
+            refuse(format!("{print} is a camera film, expected a print film, such as kodak-2383"))
+        }
+        _ => Ok(()),
+    }
+}

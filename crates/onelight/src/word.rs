@@ -1,0 +1,162 @@
+//! The words of `look.toml` and of the command line: one list for both.
+
+use onelight_film::{DyeModel, Matching, Tail};
+use onelight_printing::{Aim, HeatGlass, Infrared, Projector};
+use onelight_spectra::{Reconstruction, RgbSpace, TransferCurve};
+
+use crate::error::{Error, Kind};
+use crate::stocks::nearest;
+
+/// A choice that has a word for each of its values.
+///
+/// ```
+/// use onelight::{Aim, Word};
+/// assert_eq!(Aim::parse("sheet")?.word(), "sheet");
+/// assert!(Aim::parse("seet").unwrap_err().to_string().contains("sheet"));
+/// # Ok::<(), onelight::Error>(())
+/// ```
+pub trait Word: Copy + PartialEq + 'static {
+    /// What is chosen: the key in `look.toml`.
+    const KEY: &'static str;
+    /// Every value with its word and what it does.
+    const ALL: &'static [(Self, &'static str, &'static str)];
+
+    /// The word for this value.
+    fn word(self) -> &'static str {
+        Self::ALL.iter().find(|(value, _, _)| *value == self).map_or("", |(_, word, _)| word)
+    }
+
+    /// The value for a word.
+    ///
+    /// # Errors
+    /// If there is no such word; the message lists all and the nearest.
+    fn parse(word: &str) -> Result<Self, Error> {
+        if let Some((value, _, _)) = Self::ALL.iter().find(|(_, candidate, _)| *candidate == word) {
+            return Ok(*value);
+        }
+        let words: Vec<&str> = Self::ALL.iter().map(|(_, word, _)| *word).collect();
+        let meant = nearest(word, words.iter().copied()).unwrap_or_default();
+        let expected = format!("one of {} (did you mean {meant:?}?)", words.join(", "));
+        let found = word.chars().take(64).collect();
+        Err(Kind::Word { what: Self::KEY, found, expected }.into())
+    }
+}
+
+macro_rules! words {
+    ($($type:ty, $key:literal: $($value:path = $word:literal $help:literal),+;)*) => {
+        $(impl Word for $type {
+            const KEY: &'static str = $key;
+            const ALL: &'static [(Self, &'static str, &'static str)] = &[$(($value, $word, $help)),+];
+        })*
+    };
+}
+
+/// The RGB spaces that pictures come and go in: primaries only, (1, 1, 1) is always white.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum WorkingSpace {
+    /// sRGB and BT.709.
+    #[default]
+    Srgb,
+    /// Display P3.
+    P3,
+    /// BT.2020.
+    Rec2020,
+    /// ACEScg (AP1).
+    AcesCg,
+}
+
+impl WorkingSpace {
+    /// Its primaries, with the white of its standard.
+    #[must_use]
+    pub fn space(self) -> RgbSpace {
+        match self {
+            Self::Srgb => RgbSpace::SRGB,
+            Self::P3 => RgbSpace::DISPLAY_P3,
+            Self::Rec2020 => RgbSpace::REC2020,
+            Self::AcesCg => RgbSpace::ACESCG,
+        }
+    }
+}
+
+words! {
+    Aim, "aim":
+        Aim::Neutral = "neutral" "18 % grey becomes exactly neutral, display-linear 10^-0.7",
+        Aim::Sheet = "sheet" "the aim densities of the print's sheet; a reversal film's own exposure";
+    DyeModel, "dyes":
+        DyeModel::Wedge = "wedge" "amounts that give the sheet's densities together",
+        DyeModel::Literal = "literal" "each density is its own dye's amount, as the talk reads";
+    Matching, "matching":
+        Matching::Grey = "grey" "18 % grey under 6500 K lands on the mid grey of the curves",
+        Matching::Absolute = "absolute" "the sheet's own units decide, casts included";
+    Reconstruction, "reconstruction":
+        Reconstruction::Smooth = "smooth" "smoothest reflectances >= 0, exact",
+        Reconstruction::PseudoInverse = "pseudo-inverse" "smoothest with negative lobes, exact",
+        Reconstruction::BoxesBalanced = "boxes-balanced" "three boxes, exact",
+        Reconstruction::BoxesRaw = "boxes-raw" "three boxes, colours not balanced";
+    Infrared, "infrared":
+        Infrared::On = "on" "the printer's light counts to 1000 nm",
+        Infrared::Off = "off" "cut at 780 nm";
+    HeatGlass, "glass":
+        HeatGlass::No2043 = "no-2043" "the stand-in for Kodak No. 2043",
+        HeatGlass::Weak = "weak" "a weaker glass",
+        HeatGlass::None = "none" "no heat glass";
+    Tail, "red_tail":
+        Tail::LogLinear = "log-linear" "the print's red sensitivity falls on beyond its sheet",
+        Tail::Held = "held" "it stays as it is at the end of the sheet";
+    Projector, "projector":
+        Projector::Display = "display" "6500 K",
+        Projector::Theatre = "theatre" "5500 K, the eye adapted to it",
+        Projector::TheatreUnadapted = "theatre-unadapted" "5500 K beside a 6500 K display";
+    WorkingSpace, "space":
+        WorkingSpace::Srgb = "srgb" "sRGB primaries",
+        WorkingSpace::P3 = "p3" "Display P3 primaries",
+        WorkingSpace::Rec2020 = "rec2020" "BT.2020 primaries",
+        WorkingSpace::AcesCg = "acescg" "ACEScg primaries";
+    TransferCurve, "output_coding":
+        TransferCurve::Srgb = "srgb" "the sRGB curve",
+        TransferCurve::Gamma24 = "gamma24" "a power of 2.4",
+        TransferCurve::Linear = "linear" "light itself";
+}
+
+/// For `#[serde(with = "word::text")]`.
+pub(crate) mod text {
+    use serde::{Deserialize, Deserializer, Serializer, de};
+
+    use super::Word;
+
+    pub(crate) fn serialize<T: Word, S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(value.word())
+    }
+
+    pub(crate) fn deserialize<'de, T: Word, D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
+        T::parse(&String::deserialize(deserializer)?).map_err(de::Error::custom)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn complete<T: Word + std::fmt::Debug>() {
+        for (value, word, help) in T::ALL {
+            assert_eq!(T::parse(word).unwrap(), *value);
+            assert_eq!(value.word(), *word);
+            assert!(!help.is_empty());
+        }
+        assert!(T::parse("no such word").is_err());
+    }
+
+    #[test]
+    fn words_go_there_and_back() {
+        complete::<Aim>();
+        complete::<DyeModel>();
+        complete::<Matching>();
+        complete::<Reconstruction>();
+        complete::<Infrared>();
+        complete::<HeatGlass>();
+        complete::<Tail>();
+        complete::<Projector>();
+        complete::<WorkingSpace>();
+        complete::<TransferCurve>();
+    }
+}

@@ -1,0 +1,89 @@
+use std::fmt;
+
+use onelight_film::PerLayer;
+
+/// What went wrong in this crate: one sentence that says what, where, what was found and what was expected.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Error(Kind);
+
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Kind {
+    Spectra(onelight_spectra::Error),
+    Film(onelight_film::Error),
+    NegativeLight { negative: String, print: String, lights: PerLayer<f64> },
+    Dependent { negative: String, print: String },
+    Unreachable { stock: String, layer: &'static str, found: String, expected: String },
+    NoAmounts { stock: String, density: f64 },
+    Misplaced { stock: String, found: &'static str, expected: &'static str },
+}
+
+impl Error {
+    /// Whether an aim cannot be reached: by any lights, any exposure, any amounts of dye.
+    #[must_use]
+    pub fn is_unreachable_aim(&self) -> bool {
+        matches!(
+            self.0,
+            Kind::NegativeLight { .. } | Kind::Dependent { .. } | Kind::Unreachable { .. } | Kind::NoAmounts { .. }
+        )
+    }
+
+    /// Whether a film was put where its kind does not belong.
+    #[must_use]
+    pub fn is_wrong_kind(&self) -> bool {
+        matches!(self.0, Kind::Misplaced { .. })
+    }
+}
+
+impl From<Kind> for Error {
+    fn from(kind: Kind) -> Self {
+        Self(kind)
+    }
+}
+
+impl From<onelight_spectra::Error> for Error {
+    fn from(error: onelight_spectra::Error) -> Self {
+        Self(Kind::Spectra(error))
+    }
+}
+
+impl From<onelight_film::Error> for Error {
+    fn from(error: onelight_film::Error) -> Self {
+        Self(Kind::Film(error))
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.0 {
+            Kind::Spectra(error) => error.fmt(f),
+            Kind::Film(error) => error.fmt(f),
+            Kind::NegativeLight { negative, print, lights: PerLayer { red, green, blue } } => write!(
+                f,
+                "{negative} on {print}: the aim needs printer lights of {red:.3}, {green:.3}, {blue:.3} (red, green, blue), expected all above 0"
+            ),
+            Kind::Dependent { negative, print } => {
+                write!(
+                    f,
+                    "{negative} on {print}: two printer lights do the same to the print, expected three different ones"
+                )
+            }
+            Kind::Unreachable { stock, layer, found, expected } => {
+                write!(f, "{stock}: the aim needs {found} in the {layer} layer, expected {expected}")
+            }
+            Kind::NoAmounts { stock, density } => {
+                write!(f, "{stock}: no amounts of its dyes make a neutral of density {density}")
+            }
+            Kind::Misplaced { stock, found, expected } => write!(f, "{stock}: found a {found}, expected a {expected}"),
+        }
+    }
+}
+
+impl std::error::Error for Error {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match &self.0 {
+            Kind::Spectra(error) => Some(error),
+            Kind::Film(error) => Some(error),
+            _ => None,
+        }
+    }
+}

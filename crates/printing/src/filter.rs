@@ -1,0 +1,98 @@
+use onelight_spectra::{NumberTable, Pchip, SpectralDistribution, SpectralShape, quantity::OpticalDensity};
+
+use crate::error::Error;
+
+/// A Kodak Wratten gelatin filter (\[KodakB3\]).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Wratten {
+    /// No. 70: the red separation filter for printing.
+    No70,
+    /// No. 99: green.
+    No99,
+    /// No. 98: blue.
+    No98,
+    /// No. 2B: absorbs ultraviolet.
+    No2B,
+}
+
+/// Density of the cells that the chart leaves blank between a filter's first and last value: the chart ends there.
+const CHART_LIMIT: f64 = 3.0;
+
+impl Wratten {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::No70, Self::No99, Self::No98, Self::No2B];
+
+    fn column(self) -> &'static str {
+        match self {
+            Self::No70 => "W70",
+            Self::No99 => "W99",
+            Self::No98 => "W98",
+            Self::No2B => "W2B",
+        }
+    }
+
+    /// Density on a grid: monotone cubic through the chart's values, 3.0 where it stops, end values held outside
+    /// 300..895 nm.
+    ///
+    /// # Errors
+    /// None for the built-in chart; a test reads all of it.
+    pub fn density(self, shape: SpectralShape) -> Result<SpectralDistribution<OpticalDensity>, Error> {
+        let text = include_str!("../data/wratten_printing_set.csv");
+        let table = NumberTable::parse("wratten_printing_set.csv", text)?;
+        let (nm, density) = (table.column("wavelength_nm")?, table.column(self.column())?);
+        let first = density.iter().position(Option::is_some).unwrap_or(0);
+        let last = density.iter().rposition(Option::is_some).unwrap_or(0);
+        let x = nm[first..=last].iter().map(|v| v.unwrap_or(f64::NAN)).collect();
+        let y = density[first..=last].iter().map(|d| d.unwrap_or(CHART_LIMIT)).collect();
+        let curve = Pchip::new(x, y)?;
+        Ok(SpectralDistribution::from_fn(shape, |nm| curve.at(nm))?)
+    }
+}
+
+/// Heat-absorbing glass between lamp and film. The curve of Kodak's No. 2043 is not published; these are stand-ins with
+/// T = 0.001 + 0.899 / (1 + exp((nm - edge) / 8)).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum HeatGlass {
+    /// None: the lamp's infrared reaches the film.
+    None,
+    /// A weaker glass, edge at 760 nm.
+    Weak,
+    /// The stand-in for No. 2043, edge at 725 nm.
+    #[default]
+    No2043,
+}
+
+impl HeatGlass {
+    /// Density on a grid.
+    ///
+    /// # Errors
+    /// None; the signature is that of the distribution.
+    pub fn density(self, shape: SpectralShape) -> Result<SpectralDistribution<OpticalDensity>, Error> {
+        let edge_nm = match self {
+            Self::None => return Ok(SpectralDistribution::from_fn(shape, |_| 0.0)?),
+            Self::Weak => 760.0,
+            Self::No2043 => 725.0,
+        };
+        let transmittance = |nm: f64| 0.001 + 0.899 / (1.0 + ((nm - edge_nm) / 8.0).exp());
+        Ok(SpectralDistribution::from_fn(shape, |nm| -transmittance(nm).log10())?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn separation_filters_pass_their_own_third() {
+        let shape = SpectralShape::new(400, 1000, 1).unwrap();
+        let passes = |filter: Wratten, nm: f64| filter.density(shape).unwrap().at(nm).unwrap() < 1.0;
+        assert!(passes(Wratten::No70, 690.0) && !passes(Wratten::No70, 600.0));
+        assert!(passes(Wratten::No99, 545.0) && !passes(Wratten::No99, 450.0) && !passes(Wratten::No99, 650.0));
+        assert!(passes(Wratten::No98, 440.0) && !passes(Wratten::No98, 550.0));
+        // The gelatins open again in the infrared: why heat glass is needed.
+        assert!(passes(Wratten::No98, 850.0) && passes(Wratten::No99, 850.0));
+        for filter in Wratten::ALL {
+            assert!(filter.density(shape).unwrap().values().iter().all(|d| (0.0..=CHART_LIMIT).contains(d)));
+        }
+    }
+}

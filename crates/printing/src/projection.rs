@@ -1,0 +1,130 @@
+use nalgebra::{Matrix3, Vector3};
+use onelight_film::{DyeAmount, Dyes, PerLayer};
+use onelight_spectra::quantity::Power;
+use onelight_spectra::{Chromaticity, Kelvin, Observer, RgbSpace, SpectralDistribution, SpectralShape, black_body};
+
+use crate::duplication::{Row, transmitted};
+use crate::error::{Error, Kind};
+
+/// The light that a print or a reversal film is seen by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Projector {
+    /// The 6500 K black body: what a display shows as white.
+    #[default]
+    Display,
+    /// A theatre's 5500 K; the eye takes the bare lamp for white.
+    Theatre,
+    /// A theatre's 5500 K seen next to a 6500 K display: everything looks warm.
+    TheatreUnadapted,
+}
+
+impl Projector {
+    fn lamp(self) -> Kelvin {
+        match self {
+            Self::Display => Kelvin::WHITE,
+            Self::Theatre | Self::TheatreUnadapted => Kelvin::THEATRE,
+        }
+    }
+}
+
+/// A film on the screen: steps 6 and 7 of \[Gotanda2010\]. Amounts of dye to spectrum, XYZ (Y of the bare lamp is 1) and
+/// display-linear RGB, which may be negative outside the display's gamut.
+#[derive(Debug, Clone)]
+pub struct Projection {
+    dyes: Dyes,
+    lamp: SpectralDistribution<Power>,
+    lamp_xyz: Vector3<f64>,
+    to_rgb: Matrix3<f64>,
+    rows: Vec<Row>,
+}
+
+/// Newton's method ends when the relative error of the light is this small.
+const TOLERANCE: f64 = 1e-13;
+const MAX_ITERATIONS: usize = 60;
+
+impl Projection {
+    /// A film with these dyes (on 380..780 nm by 1 nm) shown on a display with the primaries of `output`; its white is what
+    /// the projector's light looks like.
+    ///
+    /// # Errors
+    /// If `output` is not a space.
+    pub fn new(dyes: Dyes, projector: Projector, output: &RgbSpace) -> Result<Self, Error> {
+        let shape = SpectralShape::VISIBLE;
+        let observer = Observer::cie_1931();
+        let lamp = black_body(projector.lamp(), shape);
+        let unscaled = observer.xyz(&lamp);
+        let lamp = lamp.scaled(1.0 / unscaled.y);
+        let lamp_xyz = unscaled / unscaled.y;
+        let white = match projector {
+            Projector::Display | Projector::Theatre => Chromaticity::of(&lamp_xyz),
+            Projector::TheatreUnadapted => Chromaticity::black_body_6500_k(),
+        };
+        let to_rgb = output.with_white(white).from_xyz()?;
+        let [x, y, z] = observer.matching_functions();
+        let [c, m, yellow] = dyes.dyes.as_ref().map(SpectralDistribution::values).to_array();
+        let rows = shape.trapezoid_weights_nm().enumerate().map(|(i, nm)| {
+            let light = nm * lamp.values()[i];
+            Row {
+                dyes: [c[i], m[i], yellow[i]],
+                base: dyes.d_min.as_ref().map_or(0.0, |d| d.values()[i]),
+                weights: [x, y, z].map(|f| light * f.values()[i]),
+            }
+        });
+        let rows = rows.collect();
+        Ok(Self { dyes, lamp, lamp_xyz, to_rgb, rows })
+    }
+
+    /// The light that leaves the film.
+    #[must_use]
+    pub fn spectrum(&self, amounts: PerLayer<DyeAmount>) -> SpectralDistribution<Power> {
+        self.lamp.through(&self.dyes.density(amounts).transmittance())
+    }
+
+    /// Tristimulus values; Y of the bare lamp is 1.
+    #[must_use]
+    pub fn xyz(&self, amounts: PerLayer<DyeAmount>) -> Vector3<f64> {
+        Vector3::from(transmitted(&self.rows, amounts.map(|a| a.0).to_array()))
+    }
+
+    /// Display-linear RGB of tristimulus values.
+    #[must_use]
+    pub fn rgb_of(&self, xyz: &Vector3<f64>) -> [f64; 3] {
+        (self.to_rgb * xyz).data.0[0]
+    }
+
+    /// Display-linear RGB; the bare lamp is (1, 1, 1) unless the projector is unadapted.
+    #[must_use]
+    pub fn rgb(&self, amounts: PerLayer<DyeAmount>) -> [f64; 3] {
+        self.rgb_of(&self.xyz(amounts))
+    }
+
+    /// Amounts that look like the bare lamp behind a grey filter of `density`; `stock` is named if there are none.
+    ///
+    /// # Errors
+    /// If no amounts do.
+    pub fn neutral_amounts(&self, density: f64, stock: &str) -> Result<PerLayer<DyeAmount>, Error> {
+        let target = self.lamp_xyz * 10f64.powf(-density);
+        let mut amounts = Vector3::repeat(density);
+        for _ in 0..MAX_ITERATIONS {
+            let (xyz, slope) = self.xyz_and_slope(amounts);
+            let miss = xyz - target;
+            if miss.amax() < TOLERANCE * target.amax() {
+                return Ok(PerLayer::from([amounts.x, amounts.y, amounts.z]).map(DyeAmount));
+            }
+            let Some(step) = slope.lu().solve(&miss) else { break };
+            amounts -= step * (0.5 / step.amax()).min(1.0);
+        }
+        Err(Kind::NoAmounts { stock: stock.to_owned(), density }.into())
+    }
+
+    fn xyz_and_slope(&self, amounts: Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
+        let (mut xyz, mut slope) = (Vector3::zeros(), Matrix3::zeros());
+        for Row { dyes, base, weights } in &self.rows {
+            let dyes = Vector3::from(*dyes);
+            let light = Vector3::from(*weights) * 10f64.powf(-(base + dyes.dot(&amounts)));
+            xyz += light;
+            slope -= std::f64::consts::LN_10 * light * dyes.transpose();
+        }
+        (xyz, slope)
+    }
+}

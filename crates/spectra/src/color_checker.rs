@@ -1,0 +1,56 @@
+use std::sync::OnceLock;
+
+use crate::distribution::{SpectralDistribution, quantity::Reflectance};
+use crate::error::Error;
+use crate::shape::SpectralShape;
+use crate::table::NumberTable;
+use crate::tabulated::{Outside, linear};
+
+/// A patch of the ColorChecker 24.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Patch {
+    /// Its name, such as `dark skin`.
+    pub name: String,
+    /// Reflectance on 380..780 nm by 1 nm.
+    pub reflectance: SpectralDistribution<Reflectance>,
+}
+
+/// The 24 patches in chart order, row by row from dark skin to black: the average of 30 charts (\[BabelColor\]); 10 nm
+/// table, linear between its rows, end values held beyond 380..730 nm.
+///
+/// ```
+/// let chart = onelight_spectra::color_checker();
+/// assert_eq!((chart.len(), chart[14].name.as_str()), (24, "red"));
+/// ```
+#[must_use]
+#[expect(clippy::expect_used, reason = "the table is compiled in and a test reads it")]
+pub fn color_checker() -> &'static [Patch] {
+    static CHART: OnceLock<Vec<Patch>> = OnceLock::new();
+    CHART.get_or_init(|| read().expect("the built-in table is valid"))
+}
+
+fn read() -> Result<Vec<Patch>, Error> {
+    let table = NumberTable::parse("colorchecker24.csv", include_str!("../data/colorchecker24.csv"))?;
+    let patch = |column: &String| {
+        let nodes = table.nodes("wavelength_nm", column)?;
+        let name = column.trim_start_matches(|c: char| c.is_ascii_digit() || c == '_').replace('_', " ");
+        Ok(Patch { name, reflectance: linear(&nodes, SpectralShape::VISIBLE, Outside::Held)? })
+    };
+    table.names()[1..].iter().map(patch).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Illuminant, Observer, illuminant};
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn neutral_5_reflects_a_fifth() {
+        let light = illuminant(Illuminant::D65, SpectralShape::VISIBLE);
+        let grey = light.reflected_by(&read().unwrap()[21].reflectance);
+        let eye = Observer::cie_1931();
+        // Y 19.13 under D65, computed from the same chart average elsewhere.
+        assert_relative_eq!(100.0 * eye.xyz(&grey).y / eye.xyz(&light).y, 19.13, epsilon = 0.01);
+    }
+}

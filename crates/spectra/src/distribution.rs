@@ -1,0 +1,226 @@
+use std::marker::PhantomData;
+
+use crate::error::{Error, Kind};
+use crate::shape::SpectralShape;
+
+/// What the numbers of a [`SpectralDistribution`] mean. Implemented by the markers in [`quantity`].
+pub trait Quantity: Copy + private::Sealed {
+    /// Name used in messages.
+    const NAME: &'static str;
+    /// The values allowed, in words.
+    const ALLOWED: &'static str;
+    /// Whether `value` is allowed.
+    fn allows(value: f64) -> bool;
+}
+
+mod private {
+    pub trait Sealed {}
+}
+
+macro_rules! quantities {
+    ($($(#[$doc:meta])* $name:ident: $text:literal, $allowed:literal, $test:expr;)*) => {
+        /// The meanings a [`SpectralDistribution`] can have.
+        pub mod quantity {
+            $($(#[$doc])* #[derive(Debug, Clone, Copy, PartialEq, Eq)] pub enum $name {})*
+        }
+        $(impl private::Sealed for quantity::$name {}
+        impl Quantity for quantity::$name {
+            const NAME: &'static str = $text;
+            const ALLOWED: &'static str = $allowed;
+            fn allows(value: f64) -> bool { let test: fn(f64) -> bool = $test; test(value) }
+        })*
+    };
+}
+
+quantities! {
+    /// Radiant power per nm: W/nm, W/(m^2 nm), W/(m^2 sr nm) or relative to the value at 560 nm.
+    Power: "radiant power", "a finite value >= 0", |v| v.is_finite() && v >= 0.0;
+    /// Fraction of light reflected, 0 to 1.
+    Reflectance: "reflectance", "0 to 1", |v| (0.0..=1.0).contains(&v);
+    /// Fraction of light transmitted, 0 to 1 (a density a little below 0 may lift it above 1).
+    Transmittance: "transmittance", "a finite value >= 0", |v| v.is_finite() && v >= 0.0;
+    /// Optical density: -log10 of a transmittance.
+    OpticalDensity: "optical density", "a finite value", f64::is_finite;
+    /// Response of a receiver (eye, emulsion, densitometer) per unit of power.
+    Responsivity: "responsivity", "a finite value >= 0", |v| v.is_finite() && v >= 0.0;
+}
+
+/// A quantity over wavelength on a uniform grid, checked when made and infallible afterwards.
+///
+/// ```
+/// use onelight_spectra::{SpectralDistribution, SpectralShape, quantity::OpticalDensity};
+/// let glass = SpectralDistribution::<OpticalDensity>::from_fn(SpectralShape::VISIBLE, |_nm| 0.3)?;
+/// assert!((glass.transmittance().values()[0] - 0.501187).abs() < 1e-6);
+/// # Ok::<(), onelight_spectra::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpectralDistribution<Q> {
+    shape: SpectralShape,
+    values: Vec<f64>,
+    quantity: PhantomData<Q>,
+}
+
+impl<Q: Quantity> SpectralDistribution<Q> {
+    /// One value per wavelength of `shape`.
+    ///
+    /// # Errors
+    /// If the count is not `shape.len()` or a value is not allowed for `Q`.
+    pub fn new(shape: SpectralShape, values: Vec<f64>) -> Result<Self, Error> {
+        if values.len() != shape.len() {
+            return Err(Kind::Length { quantity: Q::NAME, found: values.len(), expected: shape.len() }.into());
+        }
+        for (nm, &found) in shape.wavelengths_nm().zip(&values) {
+            if !Q::allows(found) {
+                return Err(Kind::Value { quantity: Q::NAME, nm, found, expected: Q::ALLOWED }.into());
+            }
+        }
+        Ok(Self::trusted(shape, values))
+    }
+
+    /// The values of `f(wavelength_nm)`.
+    ///
+    /// # Errors
+    /// If a value is not allowed for `Q`.
+    pub fn from_fn(shape: SpectralShape, f: impl FnMut(f64) -> f64) -> Result<Self, Error> {
+        Self::new(shape, shape.wavelengths_nm().map(f).collect())
+    }
+
+    /// For values that the arithmetic of this crate keeps allowed.
+    pub(crate) fn trusted(shape: SpectralShape, values: Vec<f64>) -> Self {
+        Self { shape, values, quantity: PhantomData }
+    }
+
+    /// The wavelength grid.
+    #[must_use]
+    pub fn shape(&self) -> SpectralShape {
+        self.shape
+    }
+
+    /// One value per wavelength.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Wavelength in nm and value, in order.
+    pub fn iter(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.shape.wavelengths_nm().zip(self.values.iter().copied())
+    }
+
+    /// The value at `wavelength_nm`, linear between grid points, `None` outside the grid.
+    #[must_use]
+    pub fn at(&self, wavelength_nm: f64) -> Option<f64> {
+        let x = (wavelength_nm - self.shape.first_nm()) / self.shape.step_nm();
+        let last = self.values.len() - 1;
+        if !(0.0..=last as f64).contains(&x) {
+            return None;
+        }
+        let i = (x as usize).min(last - 1);
+        let t = x - i as f64;
+        Some(self.values[i] + t * (self.values[i + 1] - self.values[i]))
+    }
+
+    /// Integral over the grid by the trapezoid rule: the unit of the values times nm.
+    #[must_use]
+    pub fn integral(&self) -> f64 {
+        self.shape.trapezoid_weights_nm().zip(&self.values).map(|(w, v)| w * v).sum()
+    }
+
+    /// Both on one grid, value by value.
+    ///
+    /// # Panics
+    /// If the grids differ: a mistake of the program, never of its input.
+    fn zip<R: Quantity, S: Quantity>(
+        &self,
+        other: &SpectralDistribution<R>,
+        f: impl Fn(f64, f64) -> f64,
+    ) -> SpectralDistribution<S> {
+        assert_eq!(self.shape, other.shape, "{} and {} are on different grids", Q::NAME, R::NAME);
+        let values = self.values.iter().zip(&other.values).map(|(a, b)| f(*a, *b)).collect();
+        SpectralDistribution::trusted(self.shape, values)
+    }
+}
+
+impl SpectralDistribution<quantity::Power> {
+    /// The light behind a filter. Both must share one grid.
+    #[must_use]
+    pub fn through(&self, filter: &SpectralDistribution<quantity::Transmittance>) -> Self {
+        self.zip(filter, |a, b| a * b)
+    }
+
+    /// The light reflected by a surface. Both must share one grid.
+    #[must_use]
+    pub fn reflected_by(&self, surface: &SpectralDistribution<quantity::Reflectance>) -> Self {
+        self.zip(surface, |a, b| a * b)
+    }
+
+    /// What a receiver makes of this light: the integral of power times responsivity over nm. Both must share one grid.
+    #[must_use]
+    pub fn response(&self, receiver: &SpectralDistribution<quantity::Responsivity>) -> f64 {
+        self.zip::<_, quantity::Power>(receiver, |a, b| a * b).integral()
+    }
+
+    /// The same light `factor` times as strong; `factor` must be finite and not negative.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        debug_assert!(factor.is_finite() && factor >= 0.0);
+        Self::trusted(self.shape, self.values.iter().map(|v| v * factor).collect())
+    }
+}
+
+impl SpectralDistribution<quantity::OpticalDensity> {
+    /// 10 to the power of minus the density.
+    #[must_use]
+    pub fn transmittance(&self) -> SpectralDistribution<quantity::Transmittance> {
+        SpectralDistribution::trusted(self.shape, self.values.iter().map(|d| 10f64.powf(-d)).collect())
+    }
+
+    /// Two layers on one another: densities add. Both must share one grid.
+    #[must_use]
+    pub fn stacked_on(&self, other: &Self) -> Self {
+        self.zip(other, |a, b| a + b)
+    }
+
+    /// The density of `amount` times as much of the same dye.
+    #[must_use]
+    pub fn scaled(&self, amount: f64) -> Self {
+        debug_assert!(amount.is_finite());
+        Self::trusted(self.shape, self.values.iter().map(|v| v * amount).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quantity::{OpticalDensity, Power, Reflectance};
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn transmittance_of_summed_densities_is_the_product() {
+        let shape = SpectralShape::VISIBLE;
+        let a = SpectralDistribution::<OpticalDensity>::from_fn(shape, |nm| nm / 500.0).unwrap();
+        let b = SpectralDistribution::<OpticalDensity>::from_fn(shape, |nm| 3.0 - nm / 300.0).unwrap();
+        let both = a.stacked_on(&b).transmittance();
+        for i in 0..shape.len() {
+            let product = a.transmittance().values()[i] * b.transmittance().values()[i];
+            assert_relative_eq!(both.values()[i], product, max_relative = 1e-13);
+        }
+    }
+
+    #[test]
+    fn the_door_is_guarded() {
+        let shape = SpectralShape::VISIBLE;
+        assert!(SpectralDistribution::<Power>::new(shape, vec![1.0; 400]).is_err());
+        assert!(SpectralDistribution::<Power>::from_fn(shape, |nm| if nm == 500.0 { f64::NAN } else { 1.0 }).is_err());
+        let error = SpectralDistribution::<Reflectance>::from_fn(shape, |nm| nm / 700.0).unwrap_err();
+        assert_eq!(error.to_string(), "reflectance at 701 nm: found 1.0014285714285713, expected 0 to 1");
+    }
+
+    #[test]
+    fn value_between_grid_points_is_linear() {
+        let ramp = SpectralDistribution::<Power>::from_fn(SpectralShape::VISIBLE, |nm| nm).unwrap();
+        assert_relative_eq!(ramp.at(500.25).unwrap(), 500.25);
+        assert_relative_eq!(ramp.at(780.0).unwrap(), 780.0);
+        assert_eq!(ramp.at(379.9), None);
+    }
+}

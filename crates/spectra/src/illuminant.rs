@@ -1,0 +1,73 @@
+use crate::distribution::{SpectralDistribution, quantity::Power};
+use crate::error::Error;
+use crate::shape::SpectralShape;
+use crate::table::NumberTable;
+use crate::tabulated::{Outside, linear};
+
+/// A light tabulated by the CIE (\[CIE015\]).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Illuminant {
+    /// Incandescent light, about 2856 K.
+    A,
+    /// Daylight of about 5000 K.
+    D50,
+    /// Daylight of about 5500 K.
+    D55,
+    /// Daylight of about 6500 K.
+    D65,
+}
+
+impl Illuminant {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::A, Self::D50, Self::D55, Self::D65];
+
+    fn table(self) -> (&'static str, &'static str) {
+        match self {
+            Self::A => ("illuminant_a_5nm.csv", include_str!("../data/illuminant_a_5nm.csv")),
+            Self::D50 => ("illuminant_d50_5nm.csv", include_str!("../data/illuminant_d50_5nm.csv")),
+            Self::D55 => ("illuminant_d55_5nm.csv", include_str!("../data/illuminant_d55_5nm.csv")),
+            Self::D65 => ("illuminant_d65_5nm.csv", include_str!("../data/illuminant_d65_5nm.csv")),
+        }
+    }
+}
+
+/// Relative power of a CIE illuminant, 1.0 at 560 nm; 5 nm table, linear between its rows as the CIE prescribes, end
+/// values held beyond 300..780 nm.
+#[must_use]
+#[expect(clippy::expect_used, reason = "the tables are compiled in and a test reads them all")]
+pub fn illuminant(which: Illuminant, shape: SpectralShape) -> SpectralDistribution<Power> {
+    read(which, shape).expect("the built-in tables are valid")
+}
+
+fn read(which: Illuminant, shape: SpectralShape) -> Result<SpectralDistribution<Power>, Error> {
+    let (source, text) = which.table();
+    let mut nodes = NumberTable::parse(source, text)?.nodes("wavelength_nm", "relative_power")?;
+    // The tables are 100 at 560 nm.
+    nodes.y.iter_mut().for_each(|v| *v /= 100.0);
+    linear(&nodes, shape, Outside::Held)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Observer;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn white_points_are_the_published_ones() {
+        // [CIE015], 2 degree observer. D65 to four digits; the 380..780 nm grid leaves A and D50 one digit less.
+        let published = [(0.44758, 0.40745), (0.34567, 0.35851), (0.33243, 0.34744), (0.31271, 0.32902)];
+        for (which, (x, y)) in Illuminant::ALL.into_iter().zip(published) {
+            let xyz = Observer::cie_1931().xyz(&read(which, SpectralShape::VISIBLE).unwrap());
+            assert_relative_eq!(xyz.x / xyz.sum(), x, epsilon = 5e-5);
+            assert_relative_eq!(xyz.y / xyz.sum(), y, epsilon = 5e-5);
+        }
+    }
+
+    #[test]
+    fn unit_at_560_nm() {
+        for which in Illuminant::ALL {
+            assert_relative_eq!(illuminant(which, SpectralShape::VISIBLE).at(560.0).unwrap(), 1.0, epsilon = 1e-4);
+        }
+    }
+}

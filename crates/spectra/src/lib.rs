@@ -1,0 +1,56 @@
+//! Light and colour for film simulation: what a scene emits, what an eye and a display make of it.
+//!
+//! - [`SpectralDistribution`]: a quantity over wavelength whose meaning is in its type
+//! - [`Observer`], [`illuminant()`], [`black_body`]: the CIE 1931 eye and the lights
+//! - [`RgbSpace`], [`TransferCurve`]: displays and working spaces, with any white
+//! - [`Basis`]: a spectrum for an RGB value ([`Reconstruction`] says which)
+//! - [`lux_to_w_per_m2`], [`lamp_rgb_w_per_m2`]: photometric to radiometric quantities
+//! - [`DisplayDifference`]: CIEDE2000 between two pictures
+//!
+//! ```
+//! use onelight_spectra::{Basis, Observer, Reconstruction, SpectralShape};
+//!
+//! // The light of a scene value (0.18, 0.1, 0.02), and the colour an eye sees in it.
+//! let basis = Basis::new(Reconstruction::Smooth)?;
+//! let light = basis.spectrum([0.18, 0.1, 0.02]);
+//! let rgb = basis.rgb_of(&light);
+//! assert!((rgb.x - 0.18).abs() < 1e-9 && (rgb.z - 0.02).abs() < 1e-9);
+//! # Ok::<(), onelight_spectra::Error>(())
+//! ```
+//!
+//! # Out of scope
+//! Film, printers, look-up tables and pictures; chromatic adaptation other than "white is white"; fluorescence.
+//! Keys in square brackets are resolved in REFERENCES.md at the top of the repository.
+
+mod blackbody;
+mod color_checker;
+mod difference;
+mod distribution;
+mod error;
+mod illuminant;
+mod observer;
+mod pchip;
+mod photometry;
+mod reconstruction;
+mod rgb;
+mod shape;
+mod table;
+mod tabulated;
+mod transfer;
+
+pub use blackbody::{Kelvin, black_body, planck_radiance};
+pub use color_checker::{Patch, color_checker};
+pub use difference::{DisplayDifference, ciede2000};
+pub use distribution::{Quantity, SpectralDistribution, quantity};
+pub use error::Error;
+pub use illuminant::{Illuminant, illuminant};
+pub use nalgebra;
+pub use observer::Observer;
+pub use pchip::Pchip;
+pub use photometry::{LUMENS_PER_WATT_555_NM, lamp_rgb_w_per_m2, lumen_to_w, lux_to_w_per_m2, white_lumens_per_watt};
+pub use reconstruction::{Basis, Reconstruction};
+pub use rgb::{Chromaticity, RgbSpace};
+pub use shape::SpectralShape;
+pub use table::{MAX_COLUMNS, MAX_ROWS, Nodes, NumberTable};
+pub use tabulated::{Outside, linear};
+pub use transfer::TransferCurve;

@@ -1,0 +1,173 @@
+use std::sync::OnceLock;
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::blackbody::{Kelvin, black_body};
+use crate::error::{Error, Kind};
+use crate::observer::Observer;
+use crate::shape::SpectralShape;
+
+/// A CIE 1931 xy chromaticity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Chromaticity {
+    /// x
+    pub x: f64,
+    /// y
+    pub y: f64,
+}
+
+impl Chromaticity {
+    /// The CIE's D65 as RGB standards round it.
+    pub const D65: Self = Self::new(0.3127, 0.3290);
+    /// The white of ACES (\[TB2014-004\]).
+    pub const ACES: Self = Self::new(0.32168, 0.33767);
+
+    /// A chromaticity from its coordinates.
+    #[must_use]
+    pub const fn new(x: f64, y: f64) -> Self {
+        Self { x, y }
+    }
+
+    /// The white of the model: the 6500 K black body on the grid 380..780 nm.
+    #[must_use]
+    pub fn black_body_6500_k() -> Self {
+        static WHITE: OnceLock<Chromaticity> = OnceLock::new();
+        *WHITE.get_or_init(|| Self::of(&Observer::cie_1931().xyz(&black_body(Kelvin::WHITE, SpectralShape::VISIBLE))))
+    }
+
+    /// The chromaticity of tristimulus values whose sum is not 0.
+    #[must_use]
+    pub fn of(xyz: &Vector3<f64>) -> Self {
+        Self::new(xyz.x / xyz.sum(), xyz.y / xyz.sum())
+    }
+
+    /// Tristimulus values of this chromaticity with Y = 1; y must not be 0.
+    #[must_use]
+    pub fn xyz(self) -> Vector3<f64> {
+        Vector3::new(self.x / self.y, 1.0, (1.0 - self.x - self.y) / self.y)
+    }
+}
+
+/// Linear RGB: three primaries and the white that (1, 1, 1) stands for.
+///
+/// ```
+/// use onelight_spectra::{Chromaticity, RgbSpace};
+/// let srgb = RgbSpace::SRGB.with_white(Chromaticity::black_body_6500_k());
+/// let xyz = srgb.to_xyz()? * nalgebra::Vector3::new(1.0, 1.0, 1.0);
+/// assert!((xyz.y - 1.0).abs() < 1e-12);
+/// # Ok::<(), onelight_spectra::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RgbSpace {
+    /// Red, green and blue.
+    pub primaries: [Chromaticity; 3],
+    /// What (1, 1, 1) looks like.
+    pub white: Chromaticity,
+}
+
+impl RgbSpace {
+    /// sRGB and BT.709 (\[IEC61966-2-1\]).
+    pub const SRGB: Self = Self::new([(0.64, 0.33), (0.30, 0.60), (0.15, 0.06)], Chromaticity::D65);
+    /// Display P3 (\[EG432-1\] primaries with D65).
+    pub const DISPLAY_P3: Self = Self::new([(0.680, 0.320), (0.265, 0.690), (0.150, 0.060)], Chromaticity::D65);
+    /// BT.2020 (\[BT2020\]).
+    pub const REC2020: Self = Self::new([(0.708, 0.292), (0.170, 0.797), (0.131, 0.046)], Chromaticity::D65);
+    /// ACEScg, the AP1 primaries (\[S2014-004\]).
+    pub const ACESCG: Self = Self::new([(0.713, 0.293), (0.165, 0.830), (0.128, 0.044)], Chromaticity::ACES);
+    /// ACES2065-1, the AP0 primaries (\[ST2065-1\]).
+    pub const ACES2065_1: Self = Self::new([(0.7347, 0.2653), (0.0, 1.0), (0.0001, -0.0770)], Chromaticity::ACES);
+
+    /// A space from the xy of its primaries and its white.
+    #[must_use]
+    pub const fn new(primaries: [(f64, f64); 3], white: Chromaticity) -> Self {
+        let [(rx, ry), (gx, gy), (bx, by)] = primaries;
+        let primaries = [Chromaticity::new(rx, ry), Chromaticity::new(gx, gy), Chromaticity::new(bx, by)];
+        Self { primaries, white }
+    }
+
+    /// The same primaries about another white.
+    #[must_use]
+    pub const fn with_white(self, white: Chromaticity) -> Self {
+        Self { white, ..self }
+    }
+
+    /// Linear RGB to XYZ, Y of (1, 1, 1) being 1.
+    ///
+    /// # Errors
+    /// If the primaries do not span a triangle or a number is not finite.
+    pub fn to_xyz(&self) -> Result<Matrix3<f64>, Error> {
+        let refuse = |what, c: Chromaticity| Error::from(Kind::Chromaticity { what, x: c.x, y: c.y });
+        if !(self.white.x.is_finite() && self.white.y.is_finite() && self.white.y > 0.0) {
+            return Err(refuse("white of an RGB space", self.white));
+        }
+        // Columns x, y, z: a primary may have y = 0 or below (AP0 blue), so they are not divided by it.
+        let columns = self.primaries.map(|c| Vector3::new(c.x, c.y, 1.0 - c.x - c.y));
+        let primaries = Matrix3::from_columns(&columns);
+        let inverse = primaries.try_inverse().filter(|m| m.iter().all(|v| v.is_finite() && v.abs() < 1e6));
+        let inverse = inverse.ok_or_else(|| refuse("primaries of an RGB space", self.primaries[0]))?;
+        Ok(primaries * Matrix3::from_diagonal(&(inverse * self.white.xyz())))
+    }
+
+    /// XYZ to linear RGB: the inverse of [`RgbSpace::to_xyz`].
+    ///
+    /// # Errors
+    /// As [`RgbSpace::to_xyz`].
+    pub fn from_xyz(&self) -> Result<Matrix3<f64>, Error> {
+        let refuse = || Kind::Chromaticity { what: "RGB space", x: self.white.x, y: self.white.y };
+        self.to_xyz()?.try_inverse().ok_or_else(|| refuse().into())
+    }
+
+    /// Linear RGB of this space to linear RGB of `target` with both about `white`: (1, 1, 1) stays (1, 1, 1), whatever
+    /// the whites of the two.
+    ///
+    /// # Errors
+    /// As [`RgbSpace::to_xyz`].
+    pub fn to_about(&self, target: &Self, white: Chromaticity) -> Result<Matrix3<f64>, Error> {
+        Ok(target.with_white(white).from_xyz()? * self.with_white(white).to_xyz()?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    const ALL: [RgbSpace; 5] =
+        [RgbSpace::SRGB, RgbSpace::DISPLAY_P3, RgbSpace::REC2020, RgbSpace::ACESCG, RgbSpace::ACES2065_1];
+
+    #[test]
+    fn ones_are_the_white() {
+        for space in ALL {
+            let c = Chromaticity::of(&(space.to_xyz().unwrap() * Vector3::repeat(1.0)));
+            assert_relative_eq!(c.x, space.white.x, epsilon = 1e-12);
+            assert_relative_eq!(c.y, space.white.y, epsilon = 1e-12);
+        }
+    }
+
+    #[test]
+    fn there_and_back_is_identity() {
+        for a in ALL {
+            for b in ALL {
+                let round = b.to_about(&a, Chromaticity::D65).unwrap() * a.to_about(&b, Chromaticity::D65).unwrap();
+                assert_relative_eq!(round, Matrix3::identity(), epsilon = 1e-12);
+                let white = a.to_about(&b, Chromaticity::D65).unwrap() * Vector3::repeat(1.0);
+                assert_relative_eq!(white, Vector3::repeat(1.0), epsilon = 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn srgb_matrix_is_the_published_one() {
+        // [IEC61966-2-1], four digits as printed.
+        let published = Matrix3::new(0.4124, 0.3576, 0.1805, 0.2126, 0.7152, 0.0722, 0.0193, 0.1192, 0.9505);
+        assert_relative_eq!(RgbSpace::SRGB.to_xyz().unwrap(), published, epsilon = 5.1e-5);
+    }
+
+    #[test]
+    fn degenerate_primaries_are_refused() {
+        let line = RgbSpace::new([(0.3, 0.3), (0.4, 0.4), (0.5, 0.5)], Chromaticity::D65);
+        assert!(line.to_xyz().is_err());
+        assert!(RgbSpace::SRGB.with_white(Chromaticity::new(0.3, 0.0)).to_xyz().is_err());
+        assert!(RgbSpace::new([(f64::NAN, 0.3), (0.3, 0.6), (0.1, 0.1)], Chromaticity::D65).to_xyz().is_err());
+    }
+}

@@ -1,0 +1,187 @@
+use csv::{ReaderBuilder, StringRecord, Trim};
+
+use crate::error::{Error, Kind};
+
+/// Most rows a table may have: ten times the largest spectral table in use.
+pub const MAX_ROWS: usize = 10_000;
+/// Most columns a table may have.
+pub const MAX_COLUMNS: usize = 64;
+
+/// A comma-separated table of numbers: `#` lines are comments, the first other line names the columns, a blank cell
+/// means "not published".
+///
+/// ```
+/// use onelight_spectra::NumberTable;
+/// let table = NumberTable::parse("lamp.csv", "# a lamp\nwavelength_nm,power\n400,0.5\n405,\n")?;
+/// assert_eq!(table.column("power")?, [Some(0.5), None]);
+/// # Ok::<(), onelight_spectra::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct NumberTable {
+    source: String,
+    names: Vec<String>,
+    columns: Vec<Vec<Option<f64>>>,
+    lines: Vec<u64>,
+}
+
+impl NumberTable {
+    /// Reads `text`; `source` is the name that messages carry.
+    ///
+    /// # Errors
+    /// If the text is not such a table; the message names the line.
+    pub fn parse(source: &str, text: &str) -> Result<Self, Error> {
+        let mut reader = ReaderBuilder::new().comment(Some(b'#')).trim(Trim::All).from_reader(text.as_bytes());
+        let names: Vec<String> = match reader.headers() {
+            Ok(headers) => headers.iter().map(str::to_owned).collect(),
+            Err(error) => return Err(unreadable(source, &error)),
+        };
+        if names.len() < 2 || names.len() > MAX_COLUMNS {
+            let problem = format!("found {} columns, expected 2 to {MAX_COLUMNS}", names.len());
+            return Err(at(source, reader.position().line(), problem));
+        }
+        let mut table =
+            Self { source: source.to_owned(), columns: vec![Vec::new(); names.len()], names, lines: Vec::new() };
+        for record in reader.records() {
+            let record = record.map_err(|error| unreadable(source, &error))?;
+            table.push(&record)?;
+        }
+        if table.lines.is_empty() {
+            return Err(at(source, 1, "no rows, expected at least one".to_owned()));
+        }
+        Ok(table)
+    }
+
+    fn push(&mut self, record: &StringRecord) -> Result<(), Error> {
+        let line = record.position().map_or(0, csv::Position::line);
+        if self.lines.len() == MAX_ROWS {
+            return Err(at(&self.source, line, format!("more than {MAX_ROWS} rows")));
+        }
+        for ((cell, column), name) in record.iter().zip(&mut self.columns).zip(&self.names) {
+            column.push(match cell {
+                "" => None,
+                _ => match cell.parse::<f64>() {
+                    Ok(value) if value.is_finite() => Some(value),
+                    _ => {
+                        return Err(at(
+                            &self.source,
+                            line,
+                            format!("{name}: found {cell:?}, expected a number or nothing"),
+                        ));
+                    }
+                },
+            });
+        }
+        self.lines.push(line);
+        Ok(())
+    }
+
+    /// The name that messages carry.
+    #[must_use]
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
+    /// The column names in order.
+    #[must_use]
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The cells of a column from first to last row.
+    ///
+    /// # Errors
+    /// If there is no such column.
+    pub fn column(&self, name: &str) -> Result<&[Option<f64>], Error> {
+        match self.names.iter().position(|n| n == name) {
+            Some(i) => Ok(&self.columns[i]),
+            None => Err(at(&self.source, 1, format!("no column {name:?}, found {}", self.names.join(", ")))),
+        }
+    }
+
+    /// The rows at which both `x` and `y` are given, checked to increase in x, as two lists and the line of each row.
+    ///
+    /// # Errors
+    /// If a column is missing, x does not increase, or fewer than two rows hold both.
+    pub fn nodes(&self, x: &str, y: &str) -> Result<Nodes, Error> {
+        let mut nodes = Nodes { x: Vec::new(), y: Vec::new(), lines: Vec::new() };
+        for ((cell_x, cell_y), &line) in self.column(x)?.iter().zip(self.column(y)?).zip(&self.lines) {
+            let Some(value_x) = *cell_x else {
+                return Err(self.problem(line, format!("{x} is blank, expected a number in every row")));
+            };
+            let Some(value_y) = *cell_y else { continue };
+            if let Some(&last) = nodes.x.last()
+                && value_x <= last
+            {
+                return Err(self.problem(line, format!("{x} must increase: {value_x} after {last}")));
+            }
+            nodes.x.push(value_x);
+            nodes.y.push(value_y);
+            nodes.lines.push(line);
+        }
+        if nodes.x.len() < 2 {
+            return Err(self.problem(self.lines[0], format!("{y}: {} values, expected at least 2", nodes.x.len())));
+        }
+        Ok(nodes)
+    }
+
+    /// An error at a line of this table.
+    #[must_use]
+    pub fn problem(&self, line: u64, problem: String) -> Error {
+        at(&self.source, line, problem)
+    }
+}
+
+/// Rows of a [`NumberTable`] at which two columns are given.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Nodes {
+    /// Abscissae, increasing.
+    pub x: Vec<f64>,
+    /// Ordinates.
+    pub y: Vec<f64>,
+    /// Line of the text each row stands on, counted from 1.
+    pub lines: Vec<u64>,
+}
+
+fn at(source: &str, line: u64, problem: String) -> Error {
+    Kind::Table { source: source.to_owned(), line, problem }.into()
+}
+
+fn unreadable(source: &str, error: &csv::Error) -> Error {
+    let line = error.position().map_or(1, csv::Position::line);
+    let problem = match error.kind() {
+        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
+            format!("found {len} cells, expected {expected_len}")
+        }
+        csv::ErrorKind::Utf8 { .. } => "not UTF-8 text".to_owned(),
+        _ => error.to_string(),
+    };
+    at(source, line, problem)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn message(text: &str) -> String {
+        NumberTable::parse("t.csv", text).and_then(|t| t.nodes("x", "y")).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn errors_name_the_line() {
+        assert_eq!(message("# c\nx,y\n1,2\n1,3\n"), "t.csv:4: x must increase: 1 after 1");
+        assert_eq!(message("x,y\n1,2\n2\n"), "t.csv:3: found 1 cells, expected 2");
+        assert_eq!(message("x,y\n1,abc\n"), "t.csv:2: y: found \"abc\", expected a number or nothing");
+        assert_eq!(message("x,y\n1,inf\n"), "t.csv:2: y: found \"inf\", expected a number or nothing");
+        assert_eq!(message("x,z\n1,2\n"), "t.csv:1: no column \"y\", found x, z");
+        assert_eq!(message("x,y\n,2\n3,4\n"), "t.csv:2: x is blank, expected a number in every row");
+        assert!(message("").contains("expected 2 to"));
+        assert!(message("x,y\n").contains("no rows"));
+    }
+
+    #[test]
+    fn blanks_are_skipped_per_column() {
+        let table = NumberTable::parse("t.csv", "x,y,z\n1,,5\n2,3,\n4,5,6\n").unwrap();
+        assert_eq!(table.nodes("x", "y").unwrap().x, [2.0, 4.0]);
+        assert_eq!(table.nodes("x", "z").unwrap().lines, [2, 4]);
+    }
+}

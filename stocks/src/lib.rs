@@ -1,0 +1,104 @@
+//! Data sheets of photographic films as text, one folder each, compiled into the program.
+//!
+//! This package holds no code that understands them: `onelight-film` reads them. Every folder has a `SOURCE.md` that says
+//! which sheet the figures come from, who digitised them, and how far they can be trusted. The digitised points carry the
+//! MIT licence in `LICENSE-DIGITISATION`.
+//!
+//! ```
+//! let sheet = onelight_stocks::find("kodak-5207").ok_or("no such stock")?;
+//! assert!(sheet.stock_toml.contains("5207"));
+//! assert_eq!(onelight_stocks::ALL.len(), 20);
+//! # Ok::<(), &str>(())
+//! ```
+//!
+//! # Out of scope
+//! Parsing, checking, and every number that is not in a sheet or marked as derived.
+
+/// The files of one stock.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DataSheet {
+    /// Name of the folder, such as `kodak-5207`.
+    pub id: &'static str,
+    /// Facts: kind, speed, criteria, what is published and what derived.
+    pub stock_toml: &'static str,
+    /// Spectral sensitivity: nm; log10 of the three layers.
+    pub sensitivity_csv: &'static str,
+    /// Characteristic (H-D) curves: log10 exposure; density through the three filters.
+    pub characteristic_csv: &'static str,
+    /// Spectral density of the three dyes, of D-min and of the neutral, over nm.
+    pub dye_density_csv: &'static str,
+    /// Where the figures come from, in words.
+    pub source_md: &'static str,
+}
+
+macro_rules! sheets {
+    ($($id:literal)*) => {
+        /// Every stock: negatives, reversal films, print films.
+        pub static ALL: &[DataSheet] = &[$(DataSheet {
+            id: $id,
+            stock_toml: include_str!(concat!("../", $id, "/stock.toml")),
+            sensitivity_csv: include_str!(concat!("../", $id, "/sensitivity.csv")),
+            characteristic_csv: include_str!(concat!("../", $id, "/characteristic.csv")),
+            dye_density_csv: include_str!(concat!("../", $id, "/dye_density.csv")),
+            source_md: include_str!(concat!("../", $id, "/SOURCE.md")),
+        }),*];
+    };
+}
+
+sheets! {
+    "kodak-5203"
+    "kodak-5207"
+    "kodak-5213"
+    "kodak-5219"
+    "kodak-5277"
+    "kodak-5248"
+    "kodak-portra-160"
+    "kodak-portra-400"
+    "kodak-ektar-100"
+    "kodak-gold-200"
+    "fuji-eterna-500"
+    "kodak-ektachrome-100"
+    "kodak-kodachrome-64"
+    "fuji-velvia-50"
+    "fuji-provia-100f"
+    "kodak-2383"
+    "kodak-2393"
+    "kodak-5386"
+    "fuji-3513di"
+    "fuji-3523xd"
+}
+
+/// The stock with this id.
+#[must_use]
+pub fn find(id: &str) -> Option<&'static DataSheet> {
+    ALL.iter().find(|sheet| sheet.id == id)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_folder_is_listed() {
+        let here = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+        let folders = std::fs::read_dir(here).unwrap().map(|entry| entry.unwrap().path());
+        let mut found: Vec<String> = folders
+            .filter(|path| path.join("stock.toml").exists())
+            .map(|path| path.file_name().unwrap().to_string_lossy().into_owned())
+            .collect();
+        let mut listed: Vec<String> = ALL.iter().map(|sheet| sheet.id.to_owned()).collect();
+        found.sort();
+        listed.sort();
+        assert_eq!(found, listed);
+    }
+
+    #[test]
+    fn every_source_names_sheet_and_licence() {
+        for sheet in ALL {
+            for word in ["Sheet:", "Digitisation:", "Jan Lohse", "MIT", "Resampling:", "## Oddities", "## Uncertainty"]
+            {
+                assert!(sheet.source_md.contains(word), "{}: {word}", sheet.id);
+            }
+        }
+    }
+}

@@ -1,0 +1,3 @@
+//! The onelight runner.
+
+fn main() {}
