@@ -1,4 +1,5 @@
 //! Laws that hold for every process.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
 
 use onelight::film::{DyeAmount, LogExposure, PerLayer};
 use onelight::printing::{Duplication, NEUTRAL_DENSITY, Printer, Projection, print_mid_grey, print_target};

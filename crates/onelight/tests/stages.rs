@@ -1,4 +1,5 @@
 //! Stage values against an independent computation of the model in float64 at 1 nm (fixtures/reference/stages.json).
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
 
 use onelight::{Aim, DyeModel, Process, Reference};
 use serde_json::Value;
