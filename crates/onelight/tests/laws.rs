@@ -1,7 +1,7 @@
 //! Laws that hold for every process.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
 
-use onelight::film::{DyeAmount, LogExposure, PerLayer};
+use onelight::film::{AmountCurve, DyeAmount, LogExposure, PerLayer};
 use onelight::printing::{Duplication, NEUTRAL_DENSITY, Printer, Projection, print_mid_grey, print_target};
 use onelight::spectra::{RgbSpace, SpectralShape};
 use onelight::{
@@ -105,7 +105,7 @@ fn bench(printer: Printer) -> Bench {
     let projection = Projection::new(dyes, Projector::Display, &RgbSpace::SRGB).unwrap();
     Bench {
         duplication: Duplication::new(&negative, &print, printer).unwrap(),
-        grey: camera.as_ref().zip_map(mid_grey, |curve, h| curve.amount(h)),
+        grey: camera.as_ref().zip_map(mid_grey, AmountCurve::amount),
         target: print_target(Aim::Neutral, &print, paper.as_ref(), &projection).unwrap(),
     }
 }

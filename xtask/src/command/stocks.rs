@@ -1,0 +1,214 @@
+use std::fmt::Write as _;
+
+use anyhow::{Result, bail};
+use clap::Args;
+use onelight::film::{ExposureAxis, Origin, PerLayer, SpectralSensitivity};
+use onelight::{Process, Stock, StockKind, stock, stock_ids};
+use serde_json::{Value, json};
+
+use crate::{Report, folders, plot};
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// One stock: its facts, and a plot of its curves
+    #[arg(value_name = "ID", conflicts_with = "check")]
+    id: Option<String>,
+    /// Read every stock and compile a process with it; the first fault is an error
+    #[arg(long)]
+    check: bool,
+    /// Print the result as one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
+    let (text, json) = match &arguments.id {
+        Some(id) => one(id)?,
+        None if arguments.check => check()?,
+        None => all()?,
+    };
+    Ok(Report { text, json, as_json: arguments.json })
+}
+
+fn all() -> Result<(String, Value)> {
+    let stocks: Vec<Stock> = stock_ids().map(stock).collect::<Result<_, _>>()?;
+    let mut text = format!(
+        "{:20} {:8} {:>4}  {:13} {:>13} {:12} {:16} {:8} {}\n",
+        "id", "kind", "EI", "sensitive nm", "log exposure", "axis", "aim (status A)", "+-D", "derived"
+    );
+    for stock in &stocks {
+        let (first, last) = sensitive_nm(stock);
+        let (low, high) = exposures(stock);
+        let speed = stock.exposure_index().map_or_else(|| "-".to_owned(), |ei| format!("{ei}"));
+        let _ = writeln!(
+            text,
+            "{:20} {:8} {speed:>4}  {:13} {:>13} {:12} {:16} {:8} {}",
+            stock.id(),
+            kind(stock),
+            format!("{first:.0}-{last:.0}"),
+            format!("{low:+.2}..{high:+.2}"),
+            axis(stock),
+            aim(stock),
+            format!("{:.3}", mean(stock.uncertainty().characteristic)),
+            derived(stock),
+        );
+    }
+    text.push_str(
+        "+-D: how far two digitisations of the sheet differ in density, rms.  `cargo xtask stocks ID` plots one.\n",
+    );
+    Ok((text, Value::from(stocks.iter().map(as_json).collect::<Vec<_>>())))
+}
+
+fn one(id: &str) -> Result<(String, Value)> {
+    let stock = stock(id)?;
+    let file = folders::output("stocks")?.join(format!("{id}.svg"));
+    plot::write(&file, &stock)?;
+    let uncertainty = stock.uncertainty();
+    let mut text = format!("{}\n", stock.name());
+    let mut line = |what: &str, value: String| {
+        let _ = writeln!(text, "  {what:22} {value}");
+    };
+    line("kind, process", format!("{}, {}, {}", kind(&stock), stock.process(), stock.balance()));
+    line("exposure index", stock.exposure_index().map_or_else(|| "none".to_owned(), |ei| ei.to_string()));
+    line("sheet", format!("{} ({})", stock.sheet(), stock.year()));
+    line("derived", derived(&stock));
+    line("characteristic curve", format!("{:?}, axis {}", stock.densitometry(), axis(&stock)));
+    line("D-min", densities(stock.characteristic().map(|curve| curve.d_min().0)));
+    line("D-max", densities(stock.characteristic().map(|curve| curve.d_max().0)));
+    line("steepest slope", densities(stock.characteristic().map(steepest)));
+    if let Ok(mid_grey) = stock.mid_grey() {
+        line("18 % grey at", format!("log10 H {:+.3}", mid_grey.0));
+        line("  with densities", densities(stock.characteristic().map(|curve| curve.density(mid_grey).0)));
+    }
+    if stock.aim().is_some() {
+        line("aim", aim(&stock));
+    }
+    line("uncertainty from", uncertainty.origin.clone());
+    line("  log10 sensitivity", densities(PerLayer::from(uncertainty.sensitivity)));
+    line("  density of curves", densities(PerLayer::from(uncertainty.characteristic)));
+    line(
+        "  density of dyes",
+        uncertainty.dye_density.map_or_else(|| "dyes are derived".to_owned(), |d| densities(PerLayer::from(d))),
+    );
+    line("plot", folders::shown(&file));
+    let mut json = as_json(&stock);
+    json["plot"] = folders::shown(&file).into();
+    Ok((text, json))
+}
+
+/// Reads all stocks and compiles every sensible process.
+fn check() -> Result<(String, Value)> {
+    let of_kind = |kind| stock_ids().filter(move |id| stock(id).is_ok_and(|stock| stock.kind() == kind));
+    let mut faults = Vec::new();
+    let mut count = 0;
+    let mut compile = |process: Process| {
+        count += 1;
+        if let Err(error) = process.compile() {
+            faults.push(error.to_string());
+        }
+    };
+    for id in stock_ids() {
+        match stock(id)?.kind() {
+            StockKind::Reversal => compile(Process::for_camera(id)?),
+            StockKind::Negative => {
+                for print in of_kind(StockKind::Print) {
+                    let (camera, print) = (id.to_owned(), Some(print.to_owned()));
+                    compile(Process { camera, print, ..Process::default() });
+                }
+            }
+            StockKind::Print => {}
+        }
+    }
+    if let Some(first) = faults.first() {
+        bail!("{} of {count} processes do not compile; the first: {first}", faults.len());
+    }
+    let stocks = stock_ids().count();
+    Ok((format!("{stocks} stocks read, {count} processes compiled\n"), json!({ "stocks": stocks, "processes": count })))
+}
+
+fn as_json(stock: &Stock) -> Value {
+    let (first, last) = sensitive_nm(stock);
+    let (low, high) = exposures(stock);
+    json!({
+        "id": stock.id(),
+        "name": stock.name(),
+        "maker": stock.maker(),
+        "kind": kind(stock),
+        "exposure_index": stock.exposure_index(),
+        "process": stock.process(),
+        "balance": stock.balance(),
+        "sheet": stock.sheet(),
+        "year": stock.year(),
+        "sensitivity_nm": [first, last],
+        "log10_exposure": [low, high],
+        "axis": axis(stock),
+        "d_min": stock.characteristic().map(|curve| curve.d_min().0).to_array(),
+        "d_max": stock.characteristic().map(|curve| curve.d_max().0).to_array(),
+        "aim_status_a": stock.aim().map(|(aim, _)| aim.map(|d| d.0).to_array()),
+        "derived": stock.derived(),
+        "uncertainty": {
+            "origin": stock.uncertainty().origin,
+            "sensitivity_log10": stock.uncertainty().sensitivity,
+            "characteristic_density": stock.uncertainty().characteristic,
+            "dye_density": stock.uncertainty().dye_density,
+        },
+    })
+}
+
+fn kind(stock: &Stock) -> &'static str {
+    match stock.kind() {
+        StockKind::Negative => "negative",
+        StockKind::Reversal => "reversal",
+        StockKind::Print => "print",
+    }
+}
+
+fn axis(stock: &Stock) -> &'static str {
+    match stock.axis() {
+        ExposureAxis::LuxSeconds => "lux s",
+        ExposureAxis::LuxSecondsUnverified => "lux s?",
+        ExposureAxis::Relative => "relative",
+    }
+}
+
+fn aim(stock: &Stock) -> String {
+    match stock.aim() {
+        Some((aim, origin)) => {
+            let [r, g, b] = aim.map(|d| d.0).to_array();
+            format!("{r:.2}/{g:.2}/{b:.2}{}", if origin == Origin::Derived { "*" } else { "" })
+        }
+        None => "-".to_owned(),
+    }
+}
+
+fn derived(stock: &Stock) -> String {
+    let derived = stock.derived();
+    if derived.is_empty() { "nothing, all published".to_owned() } else { derived.join(", ") }
+}
+
+fn densities(values: PerLayer<f64>) -> String {
+    let [r, g, b] = values.to_array();
+    format!("{r:.3} / {g:.3} / {b:.3}")
+}
+
+fn mean(values: [f64; 3]) -> f64 {
+    values.iter().sum::<f64>() / 3.0
+}
+
+fn steepest(curve: &onelight::film::CharacteristicCurve) -> f64 {
+    let (nodes, _) = curve.nodes();
+    nodes.iter().map(|&h| curve.slope(onelight::film::LogExposure(h)).abs()).fold(0.0, f64::max)
+}
+
+fn sensitive_nm(stock: &Stock) -> (f64, f64) {
+    widest(stock.sensitivity().map(SpectralSensitivity::range_nm))
+}
+
+fn exposures(stock: &Stock) -> (f64, f64) {
+    widest(stock.characteristic().map(|curve| (curve.range().0.0, curve.range().1.0)))
+}
+
+fn widest(ranges: PerLayer<(f64, f64)>) -> (f64, f64) {
+    let fold = |a: (f64, f64), b: (f64, f64)| (a.0.min(b.0), a.1.max(b.1));
+    ranges.to_array().into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), fold)
+}

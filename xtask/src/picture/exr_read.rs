@@ -1,0 +1,123 @@
+//! Reading OpenEXR: the header and its checks; the pixels are read by [`exr_blocks`].
+//!
+//! The `exr` crate parses the header and unpacks blocks. The table of offsets and the blocks' own headers are read
+//! here, so that each block is known to be the one asked for: a damaged table then gives an error and not a picture
+//! with a hole.
+
+use std::io::{BufRead, Seek, SeekFrom};
+
+use anyhow::{Result, anyhow, bail};
+use exr::{
+    compression::Compression,
+    meta::{BlockDescription, MetaData, attribute::IntegerBounds, header::Header},
+};
+
+use super::{
+    Chromaticities, Limits, Picture, Source, Windows, alpha, exr_blocks, exr_boxes, exr_layout, guard::guarded,
+    limits::check_claim,
+};
+
+/// The compressions that are read, for messages.
+const COMPRESSIONS: &str = "none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA or DWAB";
+
+/// Reads a picture from an OpenEXR file of `length` bytes.
+pub(super) fn read<R: BufRead + Seek>(mut reader: R, length: u64, limits: &Limits) -> Result<Picture> {
+    exr_boxes::check(&mut reader)?;
+    reader.seek(SeekFrom::Start(0)).map_err(|error| super::cannot_read(&error))?;
+    let meta = guarded(|| MetaData::read_from_buffered(&mut reader, false))?
+        .map_err(|error| anyhow!("the OpenEXR header cannot be read: {}", message(&error)))?;
+    let tables_at = reader.stream_position().map_err(|error| super::cannot_read(&error))?;
+
+    let layout = exr_layout::choose(&meta.headers)?;
+    let header = &meta.headers[layout.part];
+    check(header, length, limits)?;
+    guarded(|| MetaData::validate(std::slice::from_ref(header), false))?
+        .map_err(|error| anyhow!("the OpenEXR header is wrong: {}", message(&error)))?;
+
+    let (mut rgb, alpha) = exr_blocks::read(reader, length, tables_at, &meta, &layout)?;
+    if let Some(alpha) = &alpha {
+        alpha::straighten(&mut rgb, alpha);
+    }
+    let (windows, mut notes) = (windows(header), layout.notes);
+    if windows.pixel_aspect != header.shared_attributes.pixel_aspect {
+        notes.push("took the pixels for square, as the file's pixel aspect ratio cannot be".to_owned());
+    }
+    Ok(Picture {
+        width: header.layer_size.0,
+        height: header.layer_size.1,
+        rgb,
+        alpha,
+        windows,
+        primaries: header.shared_attributes.chromaticities.map(|xy| Chromaticities {
+            red: [xy.red.0, xy.red.1],
+            green: [xy.green.0, xy.green.1],
+            blue: [xy.blue.0, xy.blue.1],
+            white: [xy.white.0, xy.white.1],
+        }),
+        source: Source::Exr,
+        notes,
+    })
+}
+
+/// The crate's message made part of a sentence.
+pub(super) fn message(error: &exr::error::Error) -> String {
+    use exr::error::Error;
+    match error {
+        Error::NotSupported(what) => format!("not supported: {what}"),
+        Error::Invalid(what) if what == "reference to missing bytes" => {
+            "the file ends too early (is it truncated?)".to_owned()
+        }
+        Error::Invalid(what) if what.starts_with("missing or invalid") => what.to_string(),
+        Error::Invalid(what) => format!("invalid {}", what.replace("(invalid: ", "(")),
+        other => other.to_string(),
+    }
+}
+
+/// Checks all that memory is taken for, before it is taken.
+fn check(header: &Header, length: u64, limits: &Limits) -> Result<()> {
+    let (width, height) = (header.layer_size.0 as u64, header.layer_size.1 as u64);
+    limits.check_size("the data window", width, height)?;
+    let IntegerBounds { size, .. } = header.shared_attributes.display_window;
+    limits.check_size("the display window", size.0 as u64, size.1 as u64)?;
+    if let BlockDescription::Tiles(tiles) = header.blocks {
+        let tile = tiles.tile_size;
+        if tile.0 as u64 > limits.max_side || tile.1 as u64 > limits.max_side {
+            bail!("a tile is {} x {} pixels, expected sides up to {}", tile.0, tile.1, limits.max_side);
+        }
+    }
+    let expansion = expansion(header.compression)?;
+    let claimed = (width * height).saturating_mul(header.channels.bytes_per_pixel as u64);
+    check_claim(width, height, claimed, length, expansion)
+}
+
+/// The most bytes of samples that one byte of file can stand for, generously: zlib gives 1032, PXR24 a third more, the
+/// runs of PIZ some 400; DWA stores one coefficient for 64 flat pixels on top of that.
+fn expansion(compression: Compression) -> Result<u64> {
+    match compression {
+        Compression::Uncompressed => Ok(1),
+        Compression::RLE => Ok(64),
+        Compression::ZIP1
+        | Compression::ZIP16
+        | Compression::PIZ
+        | Compression::PXR24
+        | Compression::B44
+        | Compression::B44A => Ok(1 << 11),
+        Compression::DWAA(_) | Compression::DWAB(_) => Ok(1 << 15),
+        Compression::HTJ2K32 | Compression::HTJ2K256 => {
+            bail!("found HTJ2K compression, expected {COMPRESSIONS}")
+        }
+    }
+}
+
+fn windows(header: &Header) -> Windows {
+    let data = header.own_attributes.layer_position;
+    let display = header.shared_attributes.display_window;
+    let aspect = header.shared_attributes.pixel_aspect;
+    Windows {
+        data_origin: [data.0, data.1],
+        display_origin: [display.position.0, display.position.1],
+        display_size: [display.size.0, display.size.1],
+        // The range of OpenEXR's own check, without which the picture could not be written again.
+        pixel_aspect: if (1e-6..=1e6).contains(&aspect) { aspect } else { 1.0 },
+    }
+}

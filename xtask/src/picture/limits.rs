@@ -1,0 +1,57 @@
+//! What a picture may cost, checked before memory is taken for it.
+
+use anyhow::{Result, anyhow, bail};
+
+/// The largest picture that is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Limits {
+    /// Most pixels in one window.
+    pub(crate) max_pixels: u64,
+    /// Longest side of a window, in pixels.
+    pub(crate) max_side: u64,
+}
+
+impl Default for Limits {
+    /// 268 million pixels (16384 x 16384), which take 4 GiB as `f32` RGBA, and sides up to 65535.
+    fn default() -> Self {
+        Self { max_pixels: 1 << 28, max_side: 65_535 }
+    }
+}
+
+impl Limits {
+    /// Refuses an empty window and one over the limits; `what` names it in the message.
+    pub(super) fn check_size(&self, what: &str, width: u64, height: u64) -> Result<()> {
+        if width == 0 || height == 0 {
+            bail!("{what} is {width} x {height} pixels, expected at least 1 x 1");
+        }
+        if width > self.max_side || height > self.max_side {
+            bail!("{what} is {width} x {height} pixels, expected sides up to {}", self.max_side);
+        }
+        if width * height > self.max_pixels {
+            bail!("{what} is {width} x {height} pixels, expected up to {} pixels", self.max_pixels);
+        }
+        Ok(())
+    }
+}
+
+/// Refuses a header that claims more than the file can hold: `claimed` bytes of samples from `length` bytes of file,
+/// where one byte gives at most `expansion` bytes.
+pub(super) fn check_claim(width: u64, height: u64, claimed: u64, length: u64, expansion: u64) -> Result<()> {
+    if claimed > length.saturating_mul(expansion) {
+        bail!(
+            "the header claims {width} x {height} pixels ({claimed} bytes of samples), which a file of {length} bytes \
+             cannot hold (is it truncated?)"
+        );
+    }
+    Ok(())
+}
+
+/// `count` values, or a sentence where the memory is not there.
+pub(super) fn allocate<T: Clone>(count: usize, value: T) -> Result<Vec<T>> {
+    let mut values = Vec::new();
+    values
+        .try_reserve_exact(count)
+        .map_err(|_| anyhow!("there is no memory for {} MiB of pixels", (count * size_of::<T>()) >> 20))?;
+    values.resize(count, value);
+    Ok(values)
+}

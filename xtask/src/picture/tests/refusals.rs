@@ -1,0 +1,171 @@
+//! What is refused, and in which words.
+
+use ::exr::prelude::{
+    AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes, Vec2, WritableImage,
+};
+
+use super::{
+    exr::{COMPRESSIONS, Stored, file, layer},
+    *,
+};
+
+fn small_exr(compression: Compression) -> Vec<u8> {
+    let value = || FlatSamples::F16(vec![Default::default(); 64]);
+    file(vec![layer(None, [8, 8], Stored::lines(compression), &[("R", value()), ("G", value()), ("B", value())])])
+}
+
+/// The file with the four numbers of a window attribute replaced.
+fn with_window(mut bytes: Vec<u8>, name: &str, corners: [i32; 4]) -> Vec<u8> {
+    let head = [name.as_bytes(), b"\0box2i\0\x10\0\0\0"].concat();
+    let at = bytes.windows(head.len()).position(|window| window == head).unwrap() + head.len();
+    for (index, corner) in corners.iter().enumerate() {
+        bytes[at + 4 * index..][..4].copy_from_slice(&corner.to_le_bytes());
+    }
+    bytes
+}
+
+#[test]
+fn headers_that_lie_are_refused_before_memory_is_taken() {
+    for compression in COMPRESSIONS {
+        let good = small_exr(compression);
+        for (corners, expected) in [
+            ([0, 0, 99_999, 99_999], "expected sides up to 65535"),
+            ([0, 0, 39_999, 39_999], "expected up to 268435456 pixels"),
+            ([0, 0, 14_999, 14_999], "cannot hold"),
+            ([0, 0, i32::MAX - 1, i32::MAX - 1], "data window"),
+            ([i32::MIN, i32::MIN, i32::MAX, i32::MAX], "data window"),
+            ([5, 5, 4, 9], "the data window is empty"),
+            ([0, 7, 7, -9], "the data window is empty"),
+        ] {
+            let sentence = refusal(&with_window(good.clone(), "dataWindow", corners));
+            assert!(sentence.contains(expected), "{corners:?}: {sentence}");
+        }
+        let sentence = refusal(&with_window(good.clone(), "displayWindow", [0, 0, 99_999, 9]));
+        assert!(sentence.contains("the display window"), "{sentence}");
+        assert!(refusal(&with_window(good, "displayWindow", [0, 0, -1, -1])).contains("the display window is empty"));
+    }
+}
+
+#[test]
+fn png_and_tiff_headers_that_lie_are_refused() {
+    let mut png = b"\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR".to_vec();
+    png.extend([0, 0, 0x3f, 0, 0, 0, 0x3f, 0, 16, 6, 0, 0, 0]);
+    let mut crc = !0_u32; // CRC-32 of the chunk
+    for byte in &png[12..] {
+        crc = (0..8).fold(crc ^ u32::from(*byte), |crc, _| (crc >> 1) ^ (0xedb8_8320 & (crc & 1).wrapping_neg()));
+    }
+    png.extend((!crc).to_be_bytes());
+    assert!(refusal(&png).contains("cannot hold"), "{}", refusal(&png));
+
+    let mut tiff = b"II\x2a\0\x08\0\0\0".to_vec();
+    let entries = [
+        (256, 16_000),
+        (257, 16_000),
+        (258, 16),
+        (259, 1),
+        (262, 1),
+        (273, 8),
+        (277, 1),
+        (278, 16_000),
+        (279, 512_000_000_u32),
+    ];
+    tiff.extend((entries.len() as u16).to_le_bytes());
+    for (tag, value) in entries {
+        tiff.extend(
+            [&(tag as u16).to_le_bytes()[..], &4_u16.to_le_bytes(), &1_u32.to_le_bytes(), &value.to_le_bytes()]
+                .concat(),
+        );
+    }
+    tiff.extend([0; 4]);
+    assert!(refusal(&tiff).contains("cannot hold"), "{}", refusal(&tiff));
+}
+
+#[test]
+fn channels_that_make_no_picture_are_listed() {
+    let value = || FlatSamples::F32(vec![0.0; 4]);
+    let stored = Stored::lines(Compression::ZIP16);
+    let refused = |channels: &[(&str, FlatSamples)]| refusal(&file(vec![layer(None, [2, 2], stored, channels)]));
+    assert_eq!(
+        refused(&[("R", value()), ("B", value()), ("Z", value())]),
+        "found the channels B, R, Z, expected R, G and B (or Y)"
+    );
+    assert!(refused(&[("a.R", value()), ("b.G", value()), ("c.B", value())]).contains("a.R, b.G, c.B"));
+    assert!(refused(&[("BY", value()), ("RY", value()), ("Y", value())]).contains("BY, RY, Y"));
+    let many: Vec<String> = (0..60).map(|index| format!("c{index:02}")).collect();
+    let many: Vec<(&str, FlatSamples)> = many.iter().map(|name| (name.as_str(), value())).collect();
+    assert!(refused(&many).contains("c23 and 36 more"));
+}
+
+#[test]
+fn subsampled_channels_are_refused() {
+    let channel = |name: &str, side: usize| {
+        let mut channel = AnyChannel::new(name, FlatSamples::F32(vec![0.0; (4 / side) * (4 / side)]));
+        channel.sampling = Vec2(side, side);
+        channel
+    };
+    let channels =
+        AnyChannels::sort([channel("R", 1), channel("G", 1), channel("B", 1), channel("U", 1)].into_iter().collect());
+    let image = Image::from_layer(Layer::new((4, 4), LayerAttributes::default(), Encoding::FAST_LOSSLESS, channels));
+    let mut bytes = Cursor::new(Vec::new());
+    image.write().to_buffered(&mut bytes).unwrap();
+    // The crate cannot write subsampled channels, so the sampling of U is set by hand.
+    let mut bytes = bytes.into_inner();
+    let head = b"U\0\x02\0\0\0";
+    let at = bytes.windows(head.len()).position(|window| window == head).unwrap() + head.len() + 4;
+    bytes[at..at + 8].copy_from_slice(&[2, 0, 0, 0, 2, 0, 0, 0]);
+    assert!(refusal(&bytes).contains("`U` is subsampled 2 x 2"), "{}", refusal(&bytes));
+}
+
+#[test]
+fn deep_data_are_refused() {
+    let mut bytes = small_exr(Compression::ZIP1);
+    let kind = b"type\0string\0\x0d\0\0\0scanlineimage";
+    let at = bytes.windows(kind.len()).position(|window| window == kind).unwrap();
+    bytes.splice(at..at + kind.len(), *b"type\0string\0\x0c\0\0\0deepscanline");
+    assert!(refusal(&bytes).contains("deep data"), "{}", refusal(&bytes));
+}
+
+#[test]
+fn files_that_are_no_pictures_are_named_in_one_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |name: &str| read(&folder.path().join(name), &Limits::default()).unwrap_err().to_string();
+    assert!(refused("none.exr").contains("no such file"));
+    assert!(refused("").contains("is a folder"));
+    for (name, contents, expected) in [
+        ("empty.exr", &b""[..], "is empty"),
+        ("a.exr", b"\xff\xd8\xff\xe0 and so on", "a JPEG picture"),
+        ("a.hdr", b"#?RADIANCE\n", "a Radiance HDR picture"),
+        ("a.png", b"hello", "an unknown format"),
+        ("b.exr", b"\x76\x2f\x31\x01", "too early"),
+        ("b.png", b"\x89PNG\r\n\x1a\n", "too early"),
+        ("b.tif", b"II\x2a\0", "too early"),
+    ] {
+        let path = folder.path().join(name);
+        fs::write(&path, contents).unwrap();
+        let sentence = refused(name);
+        assert!(sentence.starts_with(&path.display().to_string()), "{sentence}");
+        assert!(sentence.contains(expected) && !sentence.contains('\n'), "{sentence}");
+    }
+}
+
+#[test]
+fn the_format_is_told_by_the_bytes_and_not_by_the_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("really.png");
+    write_exr(&path, &sample(5, 4), &[]).unwrap();
+    assert_eq!(read(&path, &Limits::default()).unwrap().source, Source::Exr);
+}
+
+#[test]
+fn a_picture_that_contradicts_itself_is_not_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.png");
+    let wrong = DisplayPicture { width: 3, height: 2, rgb: vec![[0.0; 3]; 5], alpha: None };
+    assert!(write_png(&path, &wrong, Bits::Eight, None, &[]).is_err());
+    let right = DisplayPicture { rgb: vec![[0.0; 3]; 6], ..wrong };
+    assert!(write_png(&path, &right, Bits::Eight, None, &[("", "empty key")]).is_err());
+    let short = Picture { alpha: Some(vec![1.0; 3]), ..sample(2, 2) };
+    assert!(write_exr(&path, &short, &[]).is_err());
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    write_png(&path, &right, Bits::Eight, None, &[]).unwrap();
+}

@@ -1,0 +1,43 @@
+//! Progress bars and clocks.
+
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// A bar over `length` steps on the terminal; nothing where there is none.
+pub(crate) fn bar(what: &'static str, length: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template("{msg:12} [{bar:40}] {percent:>3} %  {eta} left")
+        .unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::new(length).with_style(style.progress_chars("=> ")).with_message(what)
+}
+
+/// How long each part of a run took.
+#[derive(Default)]
+pub(crate) struct Clock {
+    parts: Vec<(&'static str, Duration)>,
+}
+
+impl Clock {
+    /// Runs and times a part.
+    pub(crate) fn time<T>(&mut self, part: &'static str, run: impl FnOnce() -> T) -> T {
+        let start = Instant::now();
+        let value = run();
+        self.parts.push((part, start.elapsed()));
+        value
+    }
+
+    /// `compile 0.03 s, bake 0.21 s, total 0.24 s`
+    pub(crate) fn sentence(&self) -> String {
+        let total: Duration = self.parts.iter().map(|(_, time)| *time).sum();
+        let parts = self.parts.iter().copied().chain([("total", total)]);
+        parts.map(|(part, time)| format!("{part} {:.2} s", time.as_secs_f64())).collect::<Vec<_>>().join(", ")
+    }
+
+    /// Seconds by part.
+    pub(crate) fn json(&self) -> serde_json::Value {
+        self.parts
+            .iter()
+            .map(|(part, time)| ((*part).to_owned(), serde_json::Value::from(time.as_secs_f64())))
+            .collect()
+    }
+}

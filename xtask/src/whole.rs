@@ -1,0 +1,233 @@
+//! Whole files or none: what a run writes is complete under its name, or is not there.
+
+use std::{
+    fs::{self, File, OpenOptions},
+    io::{self, BufWriter},
+    path::{Path, PathBuf},
+    sync::atomic::{AtomicU32, Ordering},
+};
+
+use anyhow::{Result, anyhow, bail};
+
+/// How many names are tried for the temporary file before giving up.
+const NAMES_TRIED: u32 = 64;
+
+/// Writes the file `path` through a temporary file in the same folder, which takes the name only when it is complete
+/// and synced.
+///
+/// `write` gets a buffered file that can seek. A file that was there before keeps its contents until then, and its
+/// permissions afterwards; a symbolic link is followed.
+///
+/// # Errors
+/// One sentence that starts with `path`: the folder does not exist, the name is a folder or a device, the file is
+/// write-protected, the disk is full, or what `write` says. Nothing half-written is left.
+pub(crate) fn write_whole<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<T>) -> Result<T> {
+    replace(path, write).map_err(|error| anyhow!("{}: {error:#}", path.display()))
+}
+
+fn replace<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<T>) -> Result<T> {
+    let target = Target::find(path)?;
+    // Declared before the file so that the file is closed when the name is removed.
+    let (temporary, file) = Temporary::create(&target.folder)?;
+    let mut file = BufWriter::with_capacity(1 << 16, file);
+    let value = write(&mut file)?;
+    let file = file.into_inner().map_err(|error| cannot_write(error.error()))?;
+    if let Some(permissions) = target.permissions {
+        file.set_permissions(permissions).map_err(|error| cannot_write(&error))?;
+    }
+    file.sync_all().map_err(|error| cannot_write(&error))?;
+    drop(file);
+    temporary.rename(&target.path)?;
+    Ok(value)
+}
+
+/// Where the finished file goes.
+struct Target {
+    path: PathBuf,
+    folder: PathBuf,
+    permissions: Option<fs::Permissions>,
+}
+
+impl Target {
+    fn find(path: &Path) -> Result<Self> {
+        let existing = match fs::metadata(path) {
+            Ok(existing) => existing,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Self::new_in(path),
+            Err(error) => return Self::new_in(path).and(Err(cannot_write(&error))),
+        };
+        if existing.is_dir() {
+            bail!("is a folder, expected the name of a file to write");
+        }
+        // A rename would replace the device itself, not write to it.
+        if !existing.is_file() {
+            bail!("is not a regular file, expected the name of a file to write");
+        }
+        if existing.permissions().readonly() {
+            bail!("the file exists and is write-protected");
+        }
+        // A rename onto a symbolic link would replace the link.
+        let real = fs::canonicalize(path).map_err(|error| cannot_write(&error))?;
+        Ok(Self { permissions: Some(existing.permissions()), ..Self::new_in(&real)? })
+    }
+
+    fn new_in(path: &Path) -> Result<Self> {
+        if path.file_name().is_none() || path.as_os_str().to_string_lossy().ends_with(['/', '\\']) {
+            bail!("is not the name of a file to write");
+        }
+        let folder = match path.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() => folder,
+            _ => Path::new("."),
+        };
+        match fs::metadata(folder) {
+            Ok(found) if found.is_dir() => {}
+            Ok(_) => bail!("cannot be written, as {} is not a folder", folder.display()),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                bail!("cannot be written, as the folder {} does not exist (it is not made for you)", folder.display())
+            }
+            Err(error) => bail!("cannot be written, as the folder {} cannot be reached: {error}", folder.display()),
+        }
+        Ok(Self { path: path.to_owned(), folder: folder.to_owned(), permissions: None })
+    }
+}
+
+/// The name of a file that is removed unless it is renamed.
+struct Temporary {
+    path: Option<PathBuf>,
+}
+
+impl Temporary {
+    fn create(folder: &Path) -> Result<(Self, File)> {
+        static NUMBER: AtomicU32 = AtomicU32::new(0);
+        for _ in 0..NAMES_TRIED {
+            let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+            let path = folder.join(format!(".onelight-{}-{number}.part", std::process::id()));
+            // `read`, because some writers seek back and read what they wrote.
+            match OpenOptions::new().read(true).write(true).create_new(true).open(&path) {
+                Ok(file) => return Ok((Self { path: Some(path) }, file)),
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                Err(error) => {
+                    bail!("cannot be written, as no file can be made in the folder {}: {error}", folder.display())
+                }
+            }
+        }
+        bail!("cannot be written, as the folder {} is full of old .onelight-*.part files", folder.display())
+    }
+
+    fn rename(mut self, target: &Path) -> Result<()> {
+        if let Some(path) = &self.path {
+            fs::rename(path, target).map_err(|error| cannot_write(&error))?;
+        }
+        self.path = None;
+        Ok(())
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        if let Some(path) = &self.path {
+            // Nothing more can be done: the error that led here is the one to report.
+            let _ = fs::remove_file(path);
+        }
+    }
+}
+
+fn cannot_write(error: &io::Error) -> anyhow::Error {
+    anyhow!("cannot be written: {error}")
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write;
+
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let mut names: Vec<String> = fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_file_appears_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        let seen_while_writing = write_whole(&path, |file| {
+            file.write_all(b"one")?;
+            Ok(path.exists())
+        })
+        .unwrap();
+        assert!(!seen_while_writing);
+        assert_eq!(fs::read(&path).unwrap(), b"one");
+        assert_eq!(names(folder.path()), ["a.txt"]);
+    }
+
+    #[test]
+    fn a_failure_leaves_the_old_file_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        fs::write(&path, b"old").unwrap();
+        let error = write_whole(&path, |file| -> Result<()> {
+            file.write_all(&[0; 100_000])?;
+            bail!("the film tore")
+        })
+        .unwrap_err();
+        assert_eq!(error.to_string(), format!("{}: the film tore", path.display()));
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        assert_eq!(names(folder.path()), ["a.txt"]);
+    }
+
+    #[test]
+    fn a_panic_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        let outcome = std::panic::catch_unwind(|| {
+            write_whole(&path, |_| -> Result<()> { std::panic::resume_unwind(Box::new(())) })
+        });
+        assert!(outcome.is_err());
+        assert!(names(folder.path()).is_empty());
+    }
+
+    #[test]
+    fn wrong_places_are_named_in_one_sentence() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("file");
+        fs::write(&file, b"x").unwrap();
+        for (path, expected) in [
+            (folder.path().to_owned(), "is a folder"),
+            (folder.path().join("no/such/a.png"), "does not exist"),
+            (file.join("a.png"), "is not a folder"),
+            (PathBuf::from("/"), "is a folder"),
+            (PathBuf::from(""), "is not the name of a file"),
+            (folder.path().join("new/"), "is not the name of a file"),
+        ] {
+            let error = write_whole(&path, |_| Ok(())).unwrap_err().to_string();
+            assert!(error.contains(expected), "{error}");
+            assert!(!error.contains('\n'));
+        }
+        assert_eq!(names(folder.path()), ["file"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_permissions_and_devices_are_respected() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let folder = tempfile::tempdir().unwrap();
+        let (real, link) = (folder.path().join("real"), folder.path().join("link"));
+        fs::write(&real, b"old").unwrap();
+        fs::set_permissions(&real, fs::Permissions::from_mode(0o640)).unwrap();
+        symlink(&real, &link).unwrap();
+        write_whole(&link, |file| Ok(file.write_all(b"new")?)).unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::read(&real).unwrap(), b"new");
+        assert_eq!(fs::metadata(&real).unwrap().permissions().mode() & 0o777, 0o640);
+
+        fs::set_permissions(&real, fs::Permissions::from_mode(0o440)).unwrap();
+        let error = write_whole(&real, |_| Ok(())).unwrap_err().to_string();
+        assert!(error.contains("write-protected"), "{error}");
+        let error = write_whole(Path::new("/dev/null"), |_| Ok(())).unwrap_err().to_string();
+        assert!(error.contains("not a regular file"), "{error}");
+    }
+}
