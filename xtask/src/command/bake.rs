@@ -28,7 +28,7 @@ pub(crate) struct Arguments {
     /// How scene light becomes a coordinate of the table
     #[arg(long, default_value = "log2")]
     shaper: ShaperChoice,
-    /// Folder to write to [default: target/onelight/<camera>[_<print>]]
+    /// Folder to write to (target/onelight/ and the films' names if left out)
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print the result as one JSON object
