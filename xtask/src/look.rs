@@ -71,11 +71,6 @@ impl LookArguments {
     pub(crate) fn names_input_space(&self) -> bool {
         self.input_space.is_some() || self.look.is_some()
     }
-
-    /// Whether the command line says how the output is coded.
-    pub(crate) fn names_output_coding(&self) -> bool {
-        self.output_coding.is_some()
-    }
 }
 
 fn read(path: &Path) -> Result<Process> {

@@ -81,13 +81,15 @@ where
     };
     let ((x0, x1), (y0, y1)) = (bounds(|p| p.0), bounds(|p| p.1));
     let margin = 0.05 * (y1 - y0).max(1e-6);
+    // Names stand above the curves.
+    let names = margin * (2 + 2 * curves.len()) as f64;
     let mut chart = ChartBuilder::on(area)
         .caption(title.to_string(), ("sans-serif", 16))
         .margin(12)
         .x_label_area_size(28)
         .y_label_area_size(40)
-        .build_cartesian_2d(x0..x1, y0 - margin..y1 + margin)?;
-    chart.configure_mesh().light_line_style(WHITE).draw()?;
+        .build_cartesian_2d(x0..x1, y0 - margin..y1 + names)?;
+    chart.configure_mesh().light_line_style(WHITE).x_label_formatter(&|x| format!("{x}")).draw()?;
     for (points, colour, name) in curves {
         let colour = *colour;
         chart
@@ -95,6 +97,7 @@ where
             .label(*name)
             .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(2)));
     }
-    chart.configure_series_labels().background_style(WHITE.mix(0.8)).border_style(GREY).draw()?;
+    let labels = &mut chart.configure_series_labels();
+    labels.position(SeriesLabelPosition::UpperRight).background_style(WHITE).border_style(GREY).draw()?;
     Ok(())
 }

@@ -92,9 +92,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let mut process = arguments.look.process()?;
     let mut notes = Vec::new();
     if target == Target::Exr && process.output_coding != TransferCurve::Linear {
-        if arguments.look.names_output_coding() {
-            notes.push("an EXR holds linear light: --output-coding is not used".to_owned());
-        }
+        notes.push(format!("an EXR holds linear light: not coded by {}", process.output_coding.word()));
         process.output_coding = TransferCurve::Linear;
     }
     let film = clock.time("compile", || process.compile())?;
