@@ -31,7 +31,7 @@ pub(crate) struct LookArguments {
     /// How densities become amounts of dye [default: wedge]
     #[arg(long, value_parser = words::<DyeModel>())]
     dyes: Option<DyeModel>,
-    /// Primaries of the scene-linear picture [default: srgb, or what an EXR says]
+    /// Primaries of the scene-linear picture [default: what an EXR's chromaticities say, else the look's, else srgb]
     #[arg(long, value_parser = words::<WorkingSpace>())]
     input_space: Option<WorkingSpace>,
     /// Primaries of the display [default: srgb]
@@ -57,7 +57,7 @@ impl LookArguments {
             process = Process { camera: camera.clone(), print, ..process };
         }
         if let Some(print) = &self.print {
-            process.print = Some(print.clone()).filter(|id| id != "none");
+            process.print = Process::parse_print(print)?;
         }
         process.aim = self.aim.unwrap_or(process.aim);
         process.dyes = self.dyes.unwrap_or(process.dyes);
@@ -67,14 +67,17 @@ impl LookArguments {
         Ok(process)
     }
 
-    /// Whether the command line or a description file says what the input's primaries are.
+    /// Whether the command line says what the input's primaries are: only that weighs more than the input's own word.
     pub(crate) fn names_input_space(&self) -> bool {
-        self.input_space.is_some() || self.look.is_some()
+        self.input_space.is_some()
     }
 }
 
 fn read(path: &Path) -> Result<Process> {
     let name = path.display().to_string();
+    if path.is_dir() {
+        bail!("{name}: is a folder, expected a look.toml");
+    }
     let file = File::open(path).with_context(|| format!("{name}: the look cannot be read"))?;
     let mut text = String::new();
     // One byte more than allowed shows that there is more.

@@ -1,6 +1,10 @@
 //! The onelight runner: `cargo xtask bake`, `develop`, `stocks`, `fixtures`. The only crate that touches files.
 
+mod buffers;
+mod certificate;
 mod command;
+mod compiled;
+mod export;
 mod folders;
 mod look;
 mod picture;
@@ -8,12 +12,14 @@ mod plot;
 mod preview;
 mod progress;
 mod scene;
+mod scene_colours;
 mod truth;
 mod whole;
 
+use std::io::{self, ErrorKind, Write as _};
 use std::process::ExitCode;
 
-use anyhow::Result;
+use anyhow::{Result, anyhow};
 use clap::{Parser, Subcommand};
 
 /// Film simulation for HDR pictures.
@@ -28,6 +34,8 @@ struct Arguments {
 enum Command {
     /// Bake a look into a LUT: look.cube, look.toml and a preview
     Bake(command::bake::Arguments),
+    /// Say how far every baked form lies from the exact film
+    Certify(command::certify::Arguments),
     /// Develop a picture: scene-linear EXR (or TIFF, PNG) in, film out
     Develop(command::develop::Arguments),
     /// List the stocks, or show one with a plot of its curves
@@ -46,20 +54,29 @@ struct Report {
 }
 
 fn main() -> ExitCode {
-    match run(Arguments::parse().command) {
-        Ok(report) if report.as_json => println!("{:#}", report.json),
-        Ok(report) => print!("{}", report.text),
-        Err(error) => {
-            eprintln!("error: {error:#}");
-            return ExitCode::from(2);
+    let printed = run(Arguments::parse().command).and_then(|report| print(&report));
+    let Err(error) = printed else { return ExitCode::SUCCESS };
+    // Where even this cannot be written, only the status is left to tell.
+    let _ = writeln!(io::stderr(), "error: {error:#}");
+    ExitCode::from(2)
+}
+
+/// Writes what a command says; a reader that has had enough (`| head`) is no error.
+fn print(report: &Report) -> Result<()> {
+    let mut out = io::stdout().lock();
+    let written = if report.as_json { writeln!(out, "{:#}", report.json) } else { write!(out, "{}", report.text) };
+    match written.and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(anyhow!("the result cannot be written to the standard output: {error}"))
         }
+        _ => Ok(()),
     }
-    ExitCode::SUCCESS
 }
 
 fn run(command: Command) -> Result<Report> {
     match command {
         Command::Bake(arguments) => command::bake::run(&arguments),
+        Command::Certify(arguments) => command::certify::run(&arguments),
         Command::Develop(arguments) => command::develop::run(&arguments),
         Command::Stocks(arguments) => command::stocks::run(&arguments),
         Command::Fixtures(arguments) => command::fixtures::run(&arguments),

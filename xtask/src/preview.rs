@@ -1,8 +1,6 @@
 //! The fixture scene before and after a look, at several exposures, on one sheet.
 
 use std::io::Cursor;
-use std::io::Write as _;
-use std::path::Path;
 
 use anyhow::Result;
 use font8x8::UnicodeFonts;
@@ -10,10 +8,9 @@ use image::{ImageFormat, Rgb, RgbImage};
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Chromaticity, RgbSpace};
 use onelight::{Process, TransferCurve};
-use onelight_lut::PlainLut;
 
-use crate::truth::{TRUE_FILM, Truth};
-use crate::whole::write_whole;
+use crate::compiled::Compiled;
+use crate::truth;
 
 /// Exposures shown, in stops.
 const EXPOSURES: [f32; 3] = [-2.0, 0.0, 2.0];
@@ -24,10 +21,9 @@ const CAPTION: u32 = 28;
 const BACKGROUND: Rgb<u8> = Rgb([24, 24, 24]);
 const INK: Rgb<u8> = Rgb([200, 200, 200]);
 
-/// Writes the sheet: the scene clipped to the display above, the look below.
-pub(crate) fn write(path: &Path, process: &Process, lut: &PlainLut) -> Result<()> {
-    let film = Process::for_camera(TRUE_FILM)?.compile()?;
-    let scene = Truth::render((TILE.0 as usize, TILE.1 as usize), &film)?;
+/// The sheet as PNG: the scene clipped to the display above, the look below.
+pub(crate) fn sheet(process: &Process, look: &Compiled) -> Result<Vec<u8>> {
+    let scene = truth::rgb((TILE.0 as usize, TILE.1 as usize))?;
     let to_input = RgbSpace::SRGB.to_about(&process.input_space.space(), Chromaticity::black_body_6500_k())?;
     // The sheet is sRGB, whatever display the look is made for.
     let to_srgb = process.output_space.space().to_about(&RgbSpace::SRGB, Chromaticity::D65)?;
@@ -36,10 +32,10 @@ pub(crate) fn write(path: &Path, process: &Process, lut: &PlainLut) -> Result<()
     let mut sheet = RgbImage::from_pixel(width, height, BACKGROUND);
     for (column, stops) in (0..columns).zip(EXPOSURES) {
         let left = GAP + column * (TILE.0 + GAP);
-        let exposed: Vec<[f32; 3]> = scene.rgb.iter().map(|rgb| rgb.map(|v| v * stops.exp2())).collect();
+        let exposed: Vec<[f32; 3]> = scene.iter().map(|rgb| rgb.map(|v| v * stops.exp2())).collect();
         let clipped = exposed.iter().map(|rgb| rgb.map(srgb_coded)).collect();
         let mut developed: Vec<[f32; 3]> = exposed.iter().map(|rgb| multiply(&to_input, *rgb)).collect();
-        lut.apply_to_slice(&mut developed);
+        look.apply_to_slice(&mut developed);
         for rgb in &mut developed {
             let linear = rgb.map(|v| process.output_coding.decode(f64::from(v)) as f32);
             *rgb = multiply(&to_srgb, linear).map(srgb_coded);
@@ -51,7 +47,7 @@ pub(crate) fn write(path: &Path, process: &Process, lut: &PlainLut) -> Result<()
     }
     let mut png = Vec::new();
     sheet.write_to(&mut Cursor::new(&mut png), ImageFormat::Png)?;
-    write_whole(path, |file| Ok(file.write_all(&png)?))
+    Ok(png)
 }
 
 fn srgb_coded(linear: f32) -> f32 {

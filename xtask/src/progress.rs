@@ -18,11 +18,15 @@ pub(crate) struct Clock {
 }
 
 impl Clock {
-    /// Runs and times a part.
+    /// Runs and times a part; parts of one name add up.
     pub(crate) fn time<T>(&mut self, part: &'static str, run: impl FnOnce() -> T) -> T {
         let start = Instant::now();
         let value = run();
-        self.parts.push((part, start.elapsed()));
+        let taken = start.elapsed();
+        match self.parts.iter_mut().find(|(name, _)| *name == part) {
+            Some((_, sum)) => *sum += taken,
+            None => self.parts.push((part, taken)),
+        }
         value
     }
 

@@ -7,7 +7,7 @@ use onelight::spectra::nalgebra::Vector3;
 use onelight::spectra::{Chromaticity, Kelvin, Observer, RgbSpace, SpectralShape, black_body, color_checker};
 use onelight::stock;
 
-use crate::scene::{self, Inputs, Nodes};
+use crate::scene::{self, Image, Inputs, Nodes};
 
 /// The camera film whose true exposures go with the scene.
 pub(crate) const TRUE_FILM: &str = "kodak-5207";
@@ -22,17 +22,26 @@ pub(crate) struct Truth {
 impl Truth {
     /// Renders the scene; `film` is a process with [`TRUE_FILM`] in the camera.
     pub(crate) fn render(size: (usize, usize), film: &Reference) -> Result<Self> {
-        let patches: Vec<Nodes> = color_checker().iter().map(|patch| at_nodes(|nm| patch.reflectance.at(nm))).collect();
-        let patches: [Nodes; 24] = patches.try_into().ok().context("the ColorChecker has 24 patches")?;
-        let [rgb, exposure] = [rgb_sensors()?, film_sensors(film)?];
-        let sensors = [rgb, exposure].concat();
-        let image = scene::render(size, &Inputs { color_checker: &patches }, &sensors);
+        let sensors = [rgb_sensors()?, film_sensors(film)?].concat();
+        let image = render(size, &sensors)?;
         let triple = |offset: usize| {
             let pixels = image.responses.chunks_exact(sensors.len());
             pixels.map(|p| [p[offset], p[offset + 1], p[offset + 2]]).collect::<Vec<[f32; 3]>>()
         };
         Ok(Self { rgb: triple(0), exposure: triple(3) })
     }
+}
+
+/// The scene as RGB alone (sRGB primaries, 6500 K white).
+pub(crate) fn rgb(size: (usize, usize)) -> Result<Vec<[f32; 3]>> {
+    let image = render(size, &rgb_sensors()?)?;
+    Ok(image.responses.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect())
+}
+
+fn render(size: (usize, usize), sensors: &[Nodes]) -> Result<Image> {
+    let patches: Vec<Nodes> = color_checker().iter().map(|patch| at_nodes(|nm| patch.reflectance.at(nm))).collect();
+    let patches: [Nodes; 24] = patches.try_into().ok().context("the ColorChecker has 24 patches")?;
+    Ok(scene::render(size, &Inputs { color_checker: &patches }, sensors))
 }
 
 /// The exposures as the reference takes them.

@@ -25,7 +25,59 @@ pub(crate) fn write_whole<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File
     replace(path, write).map_err(|error| anyhow!("{}: {error:#}", path.display()))
 }
 
+/// Files that belong together: all are complete on disk before the first takes its name.
+pub(crate) struct WholeSet {
+    folder: PathBuf,
+    files: Vec<(String, Vec<u8>)>,
+}
+
+impl WholeSet {
+    /// No files yet, for an existing folder.
+    pub(crate) fn in_folder(folder: &Path) -> Self {
+        Self { folder: folder.to_owned(), files: Vec::new() }
+    }
+
+    /// Adds a file.
+    pub(crate) fn add(&mut self, name: &str, contents: Vec<u8>) {
+        self.files.push((name.to_owned(), contents));
+    }
+
+    /// Writes all of them; their paths in the order they were added.
+    ///
+    /// # Errors
+    /// As [`write_whole`]; then no file has been replaced, unless a rename itself fails.
+    pub(crate) fn write(self) -> Result<Vec<PathBuf>> {
+        let mut ready = Vec::new();
+        for (name, contents) in &self.files {
+            let path = self.folder.join(name);
+            let written = prepare(&path, |file| Ok(io::Write::write_all(file, contents)?));
+            ready.push(written.map_err(|error| anyhow!("{}: {error:#}", path.display()))?.1);
+        }
+        ready.into_iter().map(Ready::take_its_name).collect()
+    }
+}
+
+/// A complete file that has not taken its name yet; removed if it never does.
+struct Ready {
+    target: PathBuf,
+    temporary: Temporary,
+}
+
+impl Ready {
+    fn take_its_name(self) -> Result<PathBuf> {
+        let target = self.target;
+        self.temporary.rename(&target).map_err(|error| anyhow!("{}: {error:#}", target.display()))?;
+        Ok(target)
+    }
+}
+
 fn replace<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<T>) -> Result<T> {
+    let (value, ready) = prepare(path, write)?;
+    ready.temporary.rename(&ready.target)?;
+    Ok(value)
+}
+
+fn prepare<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<T>) -> Result<(T, Ready)> {
     let target = Target::find(path)?;
     // Declared before the file so that the file is closed when the name is removed.
     let (temporary, file) = Temporary::create(&target.folder)?;
@@ -36,9 +88,7 @@ fn replace<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<T>
         file.set_permissions(permissions).map_err(|error| cannot_write(&error))?;
     }
     file.sync_all().map_err(|error| cannot_write(&error))?;
-    drop(file);
-    temporary.rename(&target.path)?;
-    Ok(value)
+    Ok((value, Ready { target: target.path, temporary }))
 }
 
 /// Where the finished file goes.
@@ -177,6 +227,21 @@ mod tests {
         assert_eq!(error.to_string(), format!("{}: the film tore", path.display()));
         assert_eq!(fs::read(&path).unwrap(), b"old");
         assert_eq!(names(folder.path()), ["a.txt"]);
+    }
+
+    #[test]
+    fn a_set_appears_whole_or_not_at_all() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join("c")).unwrap();
+        let set = |last: &str| {
+            let mut set = WholeSet::in_folder(folder.path());
+            ["a", "b", last].into_iter().for_each(|name| set.add(name, name.as_bytes().to_vec()));
+            set.write()
+        };
+        assert!(set("c").unwrap_err().to_string().contains("is a folder"));
+        assert_eq!(names(folder.path()), ["c"]);
+        assert_eq!(set("d").unwrap().len(), 3);
+        assert_eq!(names(folder.path()), ["a", "b", "c", "d"]);
     }
 
     #[test]

@@ -59,15 +59,9 @@ fn read(source: &str, text: &str) -> Result<PerLayer<SpectralDistribution<Respon
     let table = NumberTable::parse(source, text)?;
     PerLayer::all(()).try_map(|(), layer| {
         let nodes = table.nodes("wavelength_nm", layer)?;
-        let (first, last) = (nodes.x[0], nodes.x[nodes.x.len() - 1]);
-        let log10 = |nm: f64| {
-            let i = nodes.x.partition_point(|&x| x <= nm).clamp(1, nodes.x.len() - 1) - 1;
-            let t = (nm - nodes.x[i]) / (nodes.x[i + 1] - nodes.x[i]);
-            nodes.y[i] + t * (nodes.y[i + 1] - nodes.y[i])
-        };
-        let inside = |nm: f64| if (first..=last).contains(&nm) { 10f64.powf(log10(nm)) } else { 0.0 };
-        let sum: f64 = SpectralShape::VISIBLE.wavelengths_nm().map(inside).sum();
-        Ok(SpectralDistribution::from_fn(SpectralShape::VISIBLE, |nm| inside(nm) / sum)?)
+        let response = |nm: f64| nodes.at(nm).map_or(0.0, |log10| 10f64.powf(log10));
+        let sum: f64 = SpectralShape::VISIBLE.wavelengths_nm().map(response).sum();
+        Ok(SpectralDistribution::from_fn(SpectralShape::VISIBLE, |nm| response(nm) / sum)?)
     })
 }
 

@@ -1,5 +1,7 @@
 use std::fmt;
 
+use onelight_spectra::SpectralShape;
+
 /// What went wrong in this crate: one sentence that says what, where, what was found and what was expected.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Error(Kind);
@@ -11,6 +13,7 @@ pub(crate) enum Kind {
     Stock { id: String, problem: String },
     Camera { what: &'static str, found: f64, expected: &'static str },
     Unmixing { stock: String, offset: f64 },
+    Grids { found: SpectralShape, expected: SpectralShape },
 }
 
 impl Error {
@@ -54,6 +57,11 @@ impl fmt::Display for Error {
             Kind::Sheet { file, line, problem } => write!(f, "{file}:{line}: {problem}"),
             Kind::Stock { id, problem } => write!(f, "{id}: {problem}"),
             Kind::Camera { what, found, expected } => write!(f, "{what}: found {found}, expected {expected}"),
+            Kind::Grids { found, expected } => {
+                let [found, expected] =
+                    [found, expected].map(|s| format!("{}..{} nm by {}", s.first_nm(), s.last_nm(), s.step_nm()));
+                write!(f, "dyes and base of a film: found {found} beside {expected}, expected one grid")
+            }
             Kind::Unmixing { stock, offset } => write!(
                 f,
                 "{stock}: no dye amounts give the densities of the characteristic curves at log exposure {offset:+.2} from mid grey"
@@ -65,7 +73,8 @@ impl fmt::Display for Error {
 impl std::error::Error for Error {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match &self.0 {
-            Kind::Spectra(error) => Some(error),
+            // Its sentence is this error's own: only what lies behind it is new.
+            Kind::Spectra(error) => error.source(),
             _ => None,
         }
     }

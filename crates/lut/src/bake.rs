@@ -24,8 +24,37 @@ pub fn bake(
     f: impl Fn([f64; 3]) -> [f64; 3] + Sync,
     progress: impl Fn(usize) + Sync,
 ) -> Result<Lut3d, Error> {
+    along_axis(size, |coordinate| shaper.decode(coordinate), f, progress)
+}
+
+/// [`bake`] for a table whose coordinates are the caller's own coding: `f` takes coordinates from 0 to 1.
+///
+/// ```
+/// // Display-coded in, display-coded out.
+/// let table = onelight_lut::bake_coordinates(9, |rgb| rgb.map(|v| v * v), |_nodes_done| {})?;
+/// assert_eq!(table.apply([0.5; 3], onelight_lut::Interpolation::Trilinear), [0.25; 3]);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
+///
+/// # Errors
+///
+/// As [`bake`].
+pub fn bake_coordinates(
+    size: usize,
+    f: impl Fn([f64; 3]) -> [f64; 3] + Sync,
+    progress: impl Fn(usize) + Sync,
+) -> Result<Lut3d, Error> {
+    along_axis(size, |coordinate| coordinate, f, progress)
+}
+
+fn along_axis(
+    size: usize,
+    value_at: impl Fn(f64) -> f64,
+    f: impl Fn([f64; 3]) -> [f64; 3] + Sync,
+    progress: impl Fn(usize) + Sync,
+) -> Result<Lut3d, Error> {
     let mut entries = vec![[0.0; 3]; node_count(size)?];
-    let axis: Vec<f64> = (0..size).map(|i| shaper.decode(i as f64 / (size - 1) as f64)).collect();
+    let axis: Vec<f64> = (0..size).map(|i| value_at(i as f64 / (size - 1) as f64)).collect();
     let done = AtomicUsize::new(0);
     entries.par_chunks_mut(size).enumerate().for_each(|(row, nodes)| {
         let [green, blue] = [axis[row % size], axis[row / size]];

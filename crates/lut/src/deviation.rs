@@ -1,9 +1,10 @@
 use rayon::prelude::*;
+use serde::Serialize;
 
 use crate::error::{Error, Kind};
 
 /// How far one map lies from another over a set of samples, in the unit of the difference that was given.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Deviation {
     /// The number of samples.
@@ -48,32 +49,38 @@ pub fn deviation(
     candidate: impl Fn([f64; 3]) -> [f64; 3] + Sync,
     difference: impl Fn(&[f64; 3], &[f64; 3]) -> f64 + Sync,
 ) -> Result<Deviation, Error> {
-    let mut differences: Vec<f64> =
-        samples.par_iter().map(|&sample| difference(&reference(sample), &candidate(sample))).collect();
-    let mut sum = 0.0;
-    let mut largest: Option<(f64, [f64; 3])> = None;
-    for (index, (&found, &sample)) in differences.iter().zip(samples).enumerate() {
-        if !found.is_finite() {
-            return Err(Kind::Difference { index, sample, found }.into());
+    let differences = samples.par_iter().map(|&sample| difference(&reference(sample), &candidate(sample))).collect();
+    Deviation::of(samples, differences)
+}
+
+impl Deviation {
+    /// Sums up the differences at as many samples, given in the same order.
+    pub(crate) fn of(samples: &[[f64; 3]], mut differences: Vec<f64>) -> Result<Self, Error> {
+        let mut sum = 0.0;
+        let mut largest: Option<(f64, [f64; 3])> = None;
+        for (index, (&found, &sample)) in differences.iter().zip(samples).enumerate() {
+            if !found.is_finite() {
+                return Err(Kind::Difference { index, sample, found }.into());
+            }
+            sum += found;
+            if largest.is_none_or(|(max, _)| found > max) {
+                largest = Some((found, sample));
+            }
         }
-        sum += found;
-        if largest.is_none_or(|(max, _)| found > max) {
-            largest = Some((found, sample));
-        }
+        let Some((max, worst)) = largest else {
+            return Err(Kind::NoSamples.into());
+        };
+        differences.par_sort_unstable_by(f64::total_cmp);
+        let count = differences.len();
+        Ok(Self {
+            count,
+            mean: sum / count as f64,
+            p95: differences[nearest_rank(count, 95)],
+            p99: differences[nearest_rank(count, 99)],
+            max,
+            worst,
+        })
     }
-    let Some((max, worst)) = largest else {
-        return Err(Kind::NoSamples.into());
-    };
-    differences.par_sort_unstable_by(f64::total_cmp);
-    let count = differences.len();
-    Ok(Deviation {
-        count,
-        mean: sum / count as f64,
-        p95: differences[nearest_rank(count, 95)],
-        p99: differences[nearest_rank(count, 99)],
-        max,
-        worst,
-    })
 }
 
 /// The index, among `count` (1 and more) sorted values, of a percentile from 1 to 100: ceil(percent * count) - 1.

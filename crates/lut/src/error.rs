@@ -17,6 +17,11 @@ impl Error {
         matches!(*self.0, Kind::Text { .. })
     }
 
+    /// Whether a picture that should hold a table is at fault.
+    pub fn is_picture(&self) -> bool {
+        matches!(*self.0, Kind::Picture { .. })
+    }
+
     /// The line of the file, counted from 1, where the fault was noticed.
     pub fn line(&self) -> Option<usize> {
         match *self.0 {
@@ -44,10 +49,13 @@ pub(crate) enum Kind {
     NoSamples,
     Difference { index: usize, sample: [f64; 3], found: f64 },
     Text { line: usize, problem: TextProblem },
+    TextBytes { max: u64 },
+    Half { node: [usize; 3], found: [f32; 3] },
+    Picture { what: &'static str, found: String, expected: &'static str },
     Io(io::Error),
 }
 
-/// What a line of a `.cube` file has wrong.
+/// What a line of a text file has wrong.
 #[derive(Debug)]
 pub(crate) enum TextProblem {
     UnknownKeyword { found: String },
@@ -66,6 +74,8 @@ pub(crate) enum TextProblem {
     LineTooLong { max: usize },
     TooManyOtherLines { max: usize },
     TooManyCommentBytes { max: usize },
+    Unexpected { what: &'static str, found: String, expected: &'static str },
+    TooMany { what: &'static str, max: usize },
 }
 
 impl From<Kind> for Error {
@@ -122,6 +132,16 @@ impl fmt::Display for Error {
                 write!(f, "difference at sample {index}, {sample:?}: found {found}, expected a finite number")
             }
             Kind::Text { line, problem } => write!(f, "line {line}: {problem}"),
+            Kind::TextBytes { max } => {
+                write!(f, "text of a LUT file: found more than {max} bytes, expected at most {max}")
+            }
+            Kind::Half { node, found } => {
+                write!(
+                    f,
+                    "entry of a 3D LUT at node {node:?}: found {found:?}, expected numbers within ±65504 for a half"
+                )
+            }
+            Kind::Picture { what, found, expected } => write!(f, "{what}: found {found}, expected {expected}"),
             Kind::Io(error) => write!(f, "reading or writing a LUT file: {error}"),
         }
     }
@@ -173,6 +193,8 @@ impl fmt::Display for TextProblem {
             Self::TooManyCommentBytes { max } => {
                 write!(f, "comments: found more than {max} bytes, expected at most {max}")
             }
+            Self::Unexpected { what, found, expected } => write!(f, "{what}: found {found}, expected {expected}"),
+            Self::TooMany { what, max } => write!(f, "{what}: found more than {max}, expected at most {max}"),
         }
     }
 }

@@ -1,3 +1,4 @@
 //! The compiled forms: what stands between a scene-linear pixel and the baked numbers.
 
 pub(crate) mod plain;
+pub(crate) mod structured;

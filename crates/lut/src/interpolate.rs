@@ -49,6 +49,41 @@ pub(crate) fn cell(coordinate: f32, size: usize) -> (usize, f32) {
     (index, position - index as f32)
 }
 
+/// A weight for each of the nodes that a place is read from: number of the entry, weight; those of a tetrahedron are four.
+pub(crate) type Weights = [(u32, f32); 8];
+
+/// The weights by which entries make the value at coordinates: those of the other functions here, for fitting. Unused places
+/// hold weight 0.
+pub(crate) fn weights(coordinates: [f32; 3], size: usize, how: Interpolation) -> Weights {
+    let place = Place::new(coordinates, size);
+    let [r, g, b] = place.step;
+    let fraction = place.fraction.to_array();
+    let entry = |step: usize| (place.corner + step) as u32;
+    match how {
+        Interpolation::Trilinear => std::array::from_fn(|corner| {
+            let (mut step, mut weight) = (0, 1.0);
+            for (axis, along) in [r, g, b].into_iter().enumerate() {
+                let far = corner >> axis & 1 == 1;
+                step += if far { along } else { 0 };
+                weight *= if far { fraction[axis] } else { 1.0 - fraction[axis] };
+            }
+            (entry(step), weight)
+        }),
+        Interpolation::Tetrahedral => {
+            let mut order = [0, 1, 2];
+            order.sort_by(|&i, &k| fraction[k].total_cmp(&fraction[i]));
+            let [most, middle, least] = order.map(|axis| fraction[axis]);
+            let first = place.step[order[0]];
+            let mut weights = [(entry(0), 0.0); 8];
+            weights[0].1 = 1.0 - most;
+            weights[1] = (entry(first), most - middle);
+            weights[2] = (entry(first + place.step[order[1]]), middle - least);
+            weights[3] = (entry(r + g + b), least);
+            weights
+        }
+    }
+}
+
 /// Linear along red, then green, then blue.
 #[inline]
 pub(crate) fn trilinear(entries: &[[f32; 3]], place: Place) -> Vec3A {

@@ -5,7 +5,10 @@
 //! - [`bake()`] fills a [`Lut3d`] from any closure, [`PlainLut`] applies it to pixels;
 //! - [`deviation()`] measures one map against another under a difference given as a closure,
 //!   over colours such as those of [`SceneSampler`];
-//! - [`CubeFile`] reads and writes `.cube`.
+//! - [`certify`] looks for everything a map may get wrong, and [`Certificate`] says it;
+//! - [`CubeFile`] reads and writes `.cube`, [`ClfProcess`] the Common LUT Format, [`read_spi3d`] and [`write_spi3d`]
+//!   `.spi3d`, for which [`Spi3dConfig`] writes the shaper; [`write_hald`] and [`write_strip`] make pictures of tables,
+//!   [`write_ktx2`] a texture.
 //!
 //! What the three numbers of an entry mean (display code values, densities, anything else) is the caller's
 //! affair: entries come out as they went in.
@@ -39,9 +42,12 @@
 //! (readers and writers are passed in), and applying a table on a GPU.
 
 mod bake;
+mod certificate;
+mod coding;
 mod deviation;
 mod domain;
 mod error;
+mod fit;
 mod form;
 mod format;
 mod interpolate;
@@ -49,15 +55,29 @@ mod lut1d;
 mod lut3d;
 mod scene_sampler;
 mod shaper;
+mod storage;
 
-pub use bake::bake;
+pub use bake::{bake, bake_coordinates};
+pub use certificate::{
+    Band, Certificate, ColourSet, Fall, Folds, HueSteps, Law, Maps, NeutralAxis, Samples, Search, SetDeviation, certify,
+};
+pub use coding::PowerCoding;
 pub use deviation::{Deviation, deviation};
 pub use domain::Domain;
 pub use error::Error;
+pub use fit::{FitSample, FitSettings, fit};
 pub use form::plain::PlainLut;
+pub use form::structured::{Decode, INPUT_MAX, LOG_FLOOR, Mix, Rows, StructuredLut, StructuredParts};
+pub use format::clf::ClfProcess;
 pub use format::cube::CubeFile;
+pub use format::hald::{read_hald, write_hald};
+pub use format::ktx2::write_ktx2;
+pub use format::picture::PngDepth;
+pub use format::spi3d::{Spi3dConfig, read_spi3d, write_spi3d};
+pub use format::strip::{StripGreen, read_strip, write_strip};
 pub use interpolate::Interpolation;
 pub use lut1d::Lut1d;
 pub use lut3d::Lut3d;
 pub use scene_sampler::SceneSampler;
 pub use shaper::{Shaper, ShaperKind, texel_centre};
+pub use storage::Storage;

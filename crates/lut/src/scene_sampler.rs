@@ -30,7 +30,7 @@ impl SceneSampler {
     pub const MID_GREY: f64 = 0.18;
 
     /// The order of channels, largest first, in each sixth of the hue circle.
-    const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 0, 2], [1, 2, 0], [2, 1, 0], [2, 0, 1], [0, 2, 1]];
+    pub(crate) const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 0, 2], [1, 2, 0], [2, 1, 0], [2, 0, 1], [0, 2, 1]];
 
     /// Colours whose largest channel lies within a range of stops about mid grey, from the usual seed.
     ///

@@ -1,22 +1,23 @@
 use std::fmt;
 
 /// What went wrong: one sentence that says what, where, what was found and what was expected.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug)]
 pub struct Error(Kind);
 
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug)]
 pub(crate) enum Kind {
     Spectra(onelight_spectra::Error),
     Film(onelight_film::Error),
     Printing(onelight_printing::Error),
+    Lut(onelight_lut::Error),
     Look { file: String, line: usize, problem: String },
     Word { what: &'static str, found: String, expected: String },
-    UnknownStock { found: String, nearest: String },
+    UnknownStock { found: String, nearest: Option<&'static str> },
     Contradiction(String),
 }
 
 impl Error {
-    /// Whether no stock has the id that was asked for; the message names the nearest.
+    /// Whether no stock has the id that was asked for; the message names the nearest if there is a near one.
     #[must_use]
     pub fn is_unknown_stock(&self) -> bool {
         matches!(self.0, Kind::UnknownStock { .. })
@@ -32,6 +33,11 @@ impl Error {
     #[must_use]
     pub fn is_contradiction(&self) -> bool {
         matches!(&self.0, Kind::Contradiction(_)) || matches!(&self.0, Kind::Printing(error) if error.is_wrong_kind())
+    }
+
+    pub(crate) fn print_film_in_camera(id: &str) -> Self {
+        let sentence = format!("{id} is a print film, expected a negative or reversal film in the camera");
+        Kind::Contradiction(sentence).into()
     }
 
     /// Whether a description could not be read: an unknown key or word, a wrong version, no TOML.
@@ -65,16 +71,26 @@ impl From<onelight_printing::Error> for Error {
     }
 }
 
+impl From<onelight_lut::Error> for Error {
+    fn from(error: onelight_lut::Error) -> Self {
+        Self(Kind::Lut(error))
+    }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
             Kind::Spectra(error) => error.fmt(f),
             Kind::Film(error) => error.fmt(f),
             Kind::Printing(error) => error.fmt(f),
+            Kind::Lut(error) => error.fmt(f),
             Kind::Look { file, line, problem } => write!(f, "{file}:{line}: {problem}"),
             Kind::Word { what, found, expected } => write!(f, "{what}: found {found:?}, expected {expected}"),
-            Kind::UnknownStock { found, nearest } => {
+            Kind::UnknownStock { found, nearest: Some(nearest) } => {
                 write!(f, "no stock is called {found:?}; the nearest is {nearest} (`cargo xtask stocks` lists all)")
+            }
+            Kind::UnknownStock { found, nearest: None } => {
+                write!(f, "no stock is called {found:?} (`cargo xtask stocks` lists all)")
             }
             Kind::Contradiction(sentence) => f.write_str(sentence),
         }
@@ -84,10 +100,43 @@ impl fmt::Display for Error {
 impl std::error::Error for Error {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match &self.0 {
-            Kind::Spectra(error) => Some(error),
-            Kind::Film(error) => Some(error),
-            Kind::Printing(error) => Some(error),
+            // Their sentences are this error's own: only what lies behind them is new.
+            Kind::Spectra(error) => error.source(),
+            Kind::Film(error) => error.source(),
+            Kind::Printing(error) => error.source(),
+            Kind::Lut(error) => error.source(),
             _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+    use std::error::Error as _;
+
+    use super::*;
+
+    #[test]
+    fn an_error_printed_with_its_causes_says_nothing_twice() {
+        let spectra = || onelight_spectra::Kelvin::new(-1.0).unwrap_err();
+        let film = || onelight_film::Error::from(spectra());
+        let errors = [
+            Error::from(spectra()),
+            film().into(),
+            onelight_printing::Error::from(spectra()).into(),
+            onelight_printing::Error::from(film()).into(),
+            onelight_lut::Shaper::log2(-1.0, 1.0).unwrap_err().into(),
+        ];
+        for error in errors {
+            let mut sentence = error.to_string();
+            let mut cause = error.source();
+            while let Some(error) = cause {
+                sentence = format!("{sentence}: {error}");
+                cause = error.source();
+            }
+            let clauses: Vec<&str> = sentence.split(": ").collect();
+            assert_eq!(clauses.iter().collect::<HashSet<_>>().len(), clauses.len(), "{sentence}");
         }
     }
 }

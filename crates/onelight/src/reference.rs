@@ -116,12 +116,32 @@ impl Reference {
     /// spectrum is known.
     #[must_use]
     pub fn develop_exposure(&self, exposure: PerLayer<f64>) -> [f64; 3] {
-        let amounts = self.camera_amounts(exposure.map(LogExposure::of));
-        let shown = match &self.print {
+        self.develop_amounts(self.camera_amounts(exposure.map(LogExposure::of)))
+    }
+
+    /// Dye in the camera film to display-linear RGB: what is left to do once the camera film is developed.
+    #[must_use]
+    pub fn develop_amounts(&self, amounts: PerLayer<DyeAmount>) -> [f64; 3] {
+        self.projection.rgb(self.shown(amounts))
+    }
+
+    /// The same to tristimulus values; Y of the bare lamp is 1, all three are above 0.
+    pub(crate) fn xyz_of_amounts(&self, amounts: PerLayer<DyeAmount>) -> [f64; 3] {
+        self.projection.xyz(self.shown(amounts)).data.0[0]
+    }
+
+    /// Dye in the film on the screen, for dye in the camera film.
+    fn shown(&self, amounts: PerLayer<DyeAmount>) -> PerLayer<DyeAmount> {
+        match &self.print {
             Some(print) => print.amounts(print.duplication.expose(amounts)),
             None => amounts,
-        };
-        self.projection.rgb(shown)
+        }
+    }
+
+    /// Exposure of the print behind a camera film that holds these amounts of dye; `None` without a print.
+    #[must_use]
+    pub fn print_exposure(&self, amounts: PerLayer<DyeAmount>) -> Option<PerLayer<LogExposure>> {
+        self.print.as_ref().map(|print| print.duplication.expose(amounts))
     }
 
     /// Every value on the way.
@@ -199,12 +219,20 @@ impl Reference {
         self.coding
     }
 
+    pub(crate) fn to_srgb(&self) -> &Matrix3<f64> {
+        &self.to_srgb
+    }
+
+    pub(crate) fn rgb_from_xyz(&self) -> &Matrix3<f64> {
+        self.projection.rgb_from_xyz()
+    }
+
     fn scene(&self, rgb: [f64; 3]) -> [f64; 3] {
         let finite = rgb.map(|v| if v.is_nan() { 0.0 } else { v.clamp(-SCENE_MAX, SCENE_MAX) });
         (self.to_srgb * Vector3::from(finite)).data.0[0].map(|v| v.clamp(0.0, SCENE_MAX))
     }
 
-    fn camera_amounts(&self, exposure: PerLayer<LogExposure>) -> PerLayer<DyeAmount> {
+    pub(crate) fn camera_amounts(&self, exposure: PerLayer<LogExposure>) -> PerLayer<DyeAmount> {
         self.camera.as_ref().zip_map(exposure, AmountCurve::amount)
     }
 }
@@ -236,9 +264,7 @@ fn check(film: &Stock, print: Option<&Stock>) -> Result<(), Error> {
     let camera = film.id();
     let refuse = |sentence: String| Err(Kind::Contradiction(sentence).into());
     match (film.kind(), print.map(|p| (p.kind(), p.id()))) {
-        (StockKind::Print, _) => {
-            refuse(format!("{camera} is a print film, expected a negative or reversal film in the camera"))
-        }
+        (StockKind::Print, _) => Err(Error::print_film_in_camera(camera)),
         (StockKind::Negative, None) => {
             refuse(format!("{camera} is a negative, expected a print film to see it on, such as kodak-2383"))
         }

@@ -17,11 +17,10 @@ pub fn stock_ids() -> impl Iterator<Item = &'static str> {
 /// ```
 ///
 /// # Errors
-/// If there is none (the message names the nearest).
+/// If there is none (the message names the nearest if one is near).
 pub fn stock(id: &str) -> Result<Stock, Error> {
     let Some(files) = onelight_stocks::find(id) else {
-        let nearest = nearest(id, stock_ids()).unwrap_or("kodak-5207").to_owned();
-        return Err(Kind::UnknownStock { found: id.to_owned(), nearest }.into());
+        return Err(Kind::UnknownStock { found: cut(id), nearest: nearest(id, stock_ids()) }.into());
     };
     Ok(Stock::parse(&SheetText {
         id: files.id,
@@ -32,9 +31,67 @@ pub fn stock(id: &str) -> Result<Stock, Error> {
     })?)
 }
 
-/// The candidate that looks most like `found`.
+/// More characters of a name than a message repeats or a slip of the finger can account for.
+const NAME_CHARACTERS: usize = 64;
+/// Names less alike than this have nothing to do with each other: unrelated words reach 0.6 in Jaro and Winkler's measure.
+const ALIKE: f64 = 0.72;
+/// Fewer characters than this are found inside of many names.
+const PART_CHARACTERS: usize = 3;
+
+/// The beginning of what a user wrote, for messages.
+pub(crate) fn cut(found: &str) -> String {
+    found.chars().take(NAME_CHARACTERS).collect()
+}
+
+/// The candidate that looks most like `found`, if any looks like it: by its letters, or because `found` is part of it.
 pub(crate) fn nearest<'a>(found: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    // Beyond a word's length nothing more can be mistyped; it also bounds the work on hostile input.
-    let found: String = found.chars().take(64).collect::<String>().to_lowercase();
-    candidates.max_by(|a, b| strsim::jaro_winkler(&found, a).total_cmp(&strsim::jaro_winkler(&found, b)))
+    let found = cut(found).to_lowercase();
+    let likeness = |candidate: &str| {
+        let part = found.chars().count() >= PART_CHARACTERS && candidate.contains(&found);
+        strsim::jaro_winkler(&found, candidate) + if part { 1.0 } else { 0.0 }
+    };
+    let scored =
+        candidates.map(|candidate| (likeness(candidate), candidate)).filter(|(likeness, _)| *likeness >= ALIKE);
+    scored.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, candidate)| candidate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_alike_is_suggested_and_nothing_else() {
+        for (found, expected) in [
+            ("kodak-5270", "kodak-5207"),
+            ("KODAK-5219", "kodak-5219"),
+            ("kodak5213", "kodak-5213"),
+            ("5207", "kodak-5207"),
+            ("2393", "kodak-2393"),
+            ("velvia", "fuji-velvia-50"),
+            ("velvia50", "fuji-velvia-50"),
+            ("ektar", "kodak-ektar-100"),
+            ("kodakchrome", "kodak-kodachrome-64"),
+            ("eterna-500", "fuji-eterna-500"),
+        ] {
+            let nearest = nearest(found, stock_ids());
+            assert!(
+                nearest == Some(expected) || found == "kodak-5270" && nearest == Some("kodak-5277"),
+                "{found}: {nearest:?}"
+            );
+        }
+        for found in ["", " ", "x", "hello", "tri-x", "agfa", "no such stock", "none", "\u{4e00}", "\"", "look.toml"] {
+            assert_eq!(nearest(found, stock_ids()), None, "{found}");
+            assert_eq!(
+                stock(found).unwrap_err().to_string(),
+                format!("no stock is called {found:?} (`cargo xtask stocks` lists all)")
+            );
+        }
+    }
+
+    #[test]
+    fn a_message_repeats_no_more_than_the_beginning() {
+        let error = stock(&"kodak-5207".repeat(1000)).unwrap_err();
+        assert!(error.is_unknown_stock() && error.to_string().len() < 200, "{error}");
+        assert!(stock(&"x".repeat(65)).unwrap_err().to_string().contains(&format!("\"{}\"", "x".repeat(64))));
+    }
 }

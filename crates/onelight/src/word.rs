@@ -5,7 +5,7 @@ use onelight_printing::{Aim, HeatGlass, Infrared, Projector};
 use onelight_spectra::{Reconstruction, RgbSpace, TransferCurve};
 
 use crate::error::{Error, Kind};
-use crate::stocks::nearest;
+use crate::stocks::{cut, nearest};
 
 /// A choice that has a word for each of its values.
 ///
@@ -29,16 +29,15 @@ pub trait Word: Copy + PartialEq + 'static {
     /// The value for a word.
     ///
     /// # Errors
-    /// If there is no such word; the message lists all and the nearest.
+    /// If there is no such word; the message lists all, and the nearest if one is near.
     fn parse(word: &str) -> Result<Self, Error> {
         if let Some((value, _, _)) = Self::ALL.iter().find(|(_, candidate, _)| *candidate == word) {
             return Ok(*value);
         }
         let words: Vec<&str> = Self::ALL.iter().map(|(_, word, _)| *word).collect();
-        let meant = nearest(word, words.iter().copied()).unwrap_or_default();
-        let expected = format!("one of {} (did you mean {meant:?}?)", words.join(", "));
-        let found = word.chars().take(64).collect();
-        Err(Kind::Word { what: Self::KEY, found, expected }.into())
+        let meant = nearest(word, words.iter().copied()).map(|meant| format!(" (did you mean {meant:?}?)"));
+        let expected = format!("one of {}{}", words.join(", "), meant.unwrap_or_default());
+        Err(Kind::Word { what: Self::KEY, found: cut(word), expected }.into())
     }
 }
 
@@ -143,7 +142,8 @@ mod tests {
             assert_eq!(value.word(), *word);
             assert!(!help.is_empty());
         }
-        assert!(T::parse("no such word").is_err());
+        let far = T::parse("").unwrap_err().to_string();
+        assert!(far.contains("one of") && !far.contains("did you mean"), "{far}");
     }
 
     #[test]

@@ -85,10 +85,10 @@ impl Duplication {
     #[must_use]
     pub fn lit(&self, lights: PrinterLights) -> LitDuplication {
         let g = lights.0.to_array();
-        let [c, m, y] = self.dyes.dyes.as_ref().map(SpectralDistribution::values).to_array();
+        let [c, m, y] = self.dyes.dyes().map(SpectralDistribution::values).to_array();
         let rows = (0..c.len()).map(|i| Row {
             dyes: [c[i], m[i], y[i]],
-            base: self.dyes.d_min.as_ref().map_or(0.0, |d| d.values()[i]),
+            base: self.dyes.d_min().map_or(0.0, |d| d.values()[i]),
             weights: std::array::from_fn(|j| (0..3).map(|k| g[k] * self.weights[j][k][i]).sum()),
         });
         LitDuplication { rows: rows.collect() }

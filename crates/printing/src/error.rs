@@ -1,6 +1,7 @@
 use std::fmt;
 
 use onelight_film::PerLayer;
+use onelight_spectra::SpectralShape;
 
 /// What went wrong in this crate: one sentence that says what, where, what was found and what was expected.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +15,7 @@ pub(crate) enum Kind {
     Dependent { negative: String, print: String },
     Unreachable { stock: String, layer: &'static str, found: String, expected: String },
     NoAmounts { stock: String, density: f64 },
+    Grid { found: SpectralShape },
     Misplaced { stock: String, found: &'static str, expected: &'static str },
 }
 
@@ -73,6 +75,13 @@ impl fmt::Display for Error {
             Kind::NoAmounts { stock, density } => {
                 write!(f, "{stock}: no amounts of its dyes make a neutral of density {density}")
             }
+            Kind::Grid { found } => write!(
+                f,
+                "dyes of a film to be projected: found them on {}..{} nm by {}, expected 380..780 nm by 1",
+                found.first_nm(),
+                found.last_nm(),
+                found.step_nm()
+            ),
             Kind::Misplaced { stock, found, expected } => write!(f, "{stock}: found a {found}, expected a {expected}"),
         }
     }
@@ -81,8 +90,9 @@ impl fmt::Display for Error {
 impl std::error::Error for Error {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match &self.0 {
-            Kind::Spectra(error) => Some(error),
-            Kind::Film(error) => Some(error),
+            // Their sentences are this error's own: only what lies behind them is new.
+            Kind::Spectra(error) => error.source(),
+            Kind::Film(error) => error.source(),
             _ => None,
         }
     }

@@ -47,9 +47,12 @@ impl Projection {
     /// the projector's light looks like.
     ///
     /// # Errors
-    /// If `output` is not a space.
+    /// If the dyes are on another grid, or `output` is not a space.
     pub fn new(dyes: Dyes, projector: Projector, output: &RgbSpace) -> Result<Self, Error> {
         let shape = SpectralShape::VISIBLE;
+        if dyes.shape() != shape {
+            return Err(Kind::Grid { found: dyes.shape() }.into());
+        }
         let observer = Observer::cie_1931();
         let lamp = black_body(projector.lamp(), shape);
         let unscaled = observer.xyz(&lamp);
@@ -61,12 +64,12 @@ impl Projection {
         };
         let to_rgb = output.with_white(white).from_xyz()?;
         let [x, y, z] = observer.matching_functions();
-        let [c, m, yellow] = dyes.dyes.as_ref().map(SpectralDistribution::values).to_array();
+        let [c, m, yellow] = dyes.dyes().map(SpectralDistribution::values).to_array();
         let rows = shape.trapezoid_weights_nm().enumerate().map(|(i, nm)| {
             let light = nm * lamp.values()[i];
             Row {
                 dyes: [c[i], m[i], yellow[i]],
-                base: dyes.d_min.as_ref().map_or(0.0, |d| d.values()[i]),
+                base: dyes.d_min().map_or(0.0, |d| d.values()[i]),
                 weights: [x, y, z].map(|f| light * f.values()[i]),
             }
         });
@@ -90,6 +93,12 @@ impl Projection {
     #[must_use]
     pub fn rgb_of(&self, xyz: &Vector3<f64>) -> [f64; 3] {
         (self.to_rgb * xyz).data.0[0]
+    }
+
+    /// The matrix from tristimulus values to display-linear RGB.
+    #[must_use]
+    pub fn rgb_from_xyz(&self) -> &Matrix3<f64> {
+        &self.to_rgb
     }
 
     /// Display-linear RGB; the bare lamp is (1, 1, 1) unless the projector is unadapted.
@@ -126,5 +135,25 @@ impl Projection {
             slope -= std::f64::consts::LN_10 * light * dyes.transpose();
         }
         (xyz, slope)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dyes_on_another_grid_are_refused() {
+        let dyes = |shape| {
+            let dye = SpectralDistribution::from_fn(shape, |nm| nm / 1000.0).unwrap();
+            Dyes::new(PerLayer::all(dye), None).unwrap()
+        };
+        let new = |shape| Projection::new(dyes(shape), Projector::Display, &RgbSpace::SRGB);
+        let error = new(SpectralShape::by_1_nm::<400, 1000>()).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "dyes of a film to be projected: found them on 400..1000 nm by 1, expected 380..780 nm by 1"
+        );
+        assert!(new(SpectralShape::VISIBLE).is_ok());
     }
 }

@@ -45,7 +45,8 @@ impl Kelvin {
     }
 }
 
-/// Spectral radiance of a black body in W/(m^2 sr nm), Planck's law with the exact SI constants.
+/// Spectral radiance of a black body in W/(m^2 sr nm), Planck's law with the exact SI constants; 0 for wavelengths that
+/// are not above 0.
 ///
 /// ```
 /// use onelight_spectra::{Kelvin, planck_radiance};
@@ -56,7 +57,9 @@ impl Kelvin {
 /// ```
 #[must_use]
 pub fn planck_radiance(temperature: Kelvin, wavelength_nm: f64) -> f64 {
-    C1L / wavelength_nm.powi(5) / (C2_NM_K / (wavelength_nm * temperature.0)).exp_m1()
+    let radiance = C1L / wavelength_nm.powi(5) / (C2_NM_K / (wavelength_nm * temperature.0)).exp_m1();
+    // The law goes to 0 at both ends of the spectrum, where its factors leave the range of a double.
+    if wavelength_nm > 0.0 && radiance.is_finite() { radiance } else { 0.0 }
 }
 
 /// Relative power of a black body, 1.0 at 560 nm.
@@ -84,6 +87,18 @@ mod tests {
             let at = |nm: f64| planck_radiance(t, nm);
             // The derivative changes sign within a hundred-thousandth of Wien's wavelength.
             assert!(at(peak * (1.0 - 1e-5)) < at(peak) && at(peak * (1.0 + 1e-5)) < at(peak), "{kelvin} K");
+        }
+    }
+
+    #[test]
+    fn radiance_goes_to_0_at_both_ends() {
+        for kelvin in [500.0, 6500.0, 100_000.0] {
+            let t = Kelvin::new(kelvin).unwrap();
+            let ends =
+                [f64::NEG_INFINITY, -560.0, -0.0, 0.0, 5e-324, 1e-70, 1e-3, 1e100, f64::MAX, f64::INFINITY, f64::NAN];
+            for nm in ends {
+                assert!((0.0..1e-80).contains(&planck_radiance(t, nm)), "{nm} nm");
+            }
         }
     }
 

@@ -2,6 +2,7 @@ use std::marker::PhantomData;
 
 use crate::error::{Error, Kind};
 use crate::shape::SpectralShape;
+use crate::tabulated::linear_at;
 
 /// What the numbers of a [`SpectralDistribution`] mean. Implemented by the markers in [`quantity`].
 pub trait Quantity: Copy + private::Sealed {
@@ -39,11 +40,14 @@ quantities! {
     Reflectance: "reflectance", "0 to 1", |v| (0.0..=1.0).contains(&v);
     /// Fraction of light transmitted, 0 to 1 (a density a little below 0 may lift it above 1).
     Transmittance: "transmittance", "a finite value >= 0", |v| v.is_finite() && v >= 0.0;
-    /// Optical density: -log10 of a transmittance.
-    OpticalDensity: "optical density", "a finite value", f64::is_finite;
+    /// Optical density: -log10 of a transmittance; within 300 of 0, so that the transmittance is a finite number.
+    OpticalDensity: "optical density", "-300 to 300", |v| v.abs() <= MAX_DENSITY;
     /// Response of a receiver (eye, emulsion, densitometer) per unit of power.
     Responsivity: "responsivity", "a finite value >= 0", |v| v.is_finite() && v >= 0.0;
 }
+
+/// The largest optical density, positive or negative.
+const MAX_DENSITY: f64 = 300.0;
 
 /// A quantity over wavelength on a uniform grid, checked when made and infallible afterwards.
 ///
@@ -110,14 +114,8 @@ impl<Q: Quantity> SpectralDistribution<Q> {
     /// The value at `wavelength_nm`, linear between grid points, `None` outside the grid.
     #[must_use]
     pub fn at(&self, wavelength_nm: f64) -> Option<f64> {
-        let x = (wavelength_nm - self.shape.first_nm()) / self.shape.step_nm();
-        let last = self.values.len() - 1;
-        if !(0.0..=last as f64).contains(&x) {
-            return None;
-        }
-        let i = (x as usize).min(last - 1);
-        let t = x - i as f64;
-        Some(self.values[i] + t * (self.values[i + 1] - self.values[i]))
+        let Self { shape, values, .. } = self;
+        linear_at(|i| shape.first_nm() + i as f64 * shape.step_nm(), values, wavelength_nm)
     }
 
     /// Integral over the grid by the trapezoid rule: the unit of the values times nm.
@@ -143,28 +141,37 @@ impl<Q: Quantity> SpectralDistribution<Q> {
 
 impl SpectralDistribution<quantity::Power> {
     /// The light behind a filter. Both must share one grid.
+    ///
+    /// # Panics
+    /// If the grids differ.
     #[must_use]
     pub fn through(&self, filter: &SpectralDistribution<quantity::Transmittance>) -> Self {
-        self.zip(filter, |a, b| a * b)
+        self.zip(filter, |a, b| (a * b).min(f64::MAX))
     }
 
     /// The light reflected by a surface. Both must share one grid.
+    ///
+    /// # Panics
+    /// If the grids differ.
     #[must_use]
     pub fn reflected_by(&self, surface: &SpectralDistribution<quantity::Reflectance>) -> Self {
         self.zip(surface, |a, b| a * b)
     }
 
     /// What a receiver makes of this light: the integral of power times responsivity over nm. Both must share one grid.
+    ///
+    /// # Panics
+    /// If the grids differ.
     #[must_use]
     pub fn response(&self, receiver: &SpectralDistribution<quantity::Responsivity>) -> f64 {
         self.zip::<_, quantity::Power>(receiver, |a, b| a * b).integral()
     }
 
-    /// The same light `factor` times as strong; `factor` must be finite and not negative.
+    /// The same light `factor` times as strong. A factor below 0 or NaN counts as 0, and no value becomes infinite.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
-        debug_assert!(factor.is_finite() && factor >= 0.0);
-        Self::trusted(self.shape, self.values.iter().map(|v| v * factor).collect())
+        let factor = if factor > 0.0 { factor.min(f64::MAX) } else { 0.0 };
+        Self::trusted(self.shape, self.values.iter().map(|v| (v * factor).min(f64::MAX)).collect())
     }
 }
 
@@ -175,23 +182,30 @@ impl SpectralDistribution<quantity::OpticalDensity> {
         SpectralDistribution::trusted(self.shape, self.values.iter().map(|d| 10f64.powf(-d)).collect())
     }
 
-    /// Two layers on one another: densities add. Both must share one grid.
+    /// Two layers on one another: densities add, and are held within 300 of 0. Both must share one grid.
+    ///
+    /// # Panics
+    /// If the grids differ.
     #[must_use]
     pub fn stacked_on(&self, other: &Self) -> Self {
-        self.zip(other, |a, b| a + b)
+        self.zip(other, |a, b| held(a + b))
     }
 
-    /// The density of `amount` times as much of the same dye.
+    /// The density of `amount` times as much of the same dye, held within 300 of 0; a NaN amount counts as 0.
     #[must_use]
     pub fn scaled(&self, amount: f64) -> Self {
-        debug_assert!(amount.is_finite());
-        Self::trusted(self.shape, self.values.iter().map(|v| v * amount).collect())
+        let amount = if amount.is_nan() { 0.0 } else { amount.clamp(f64::MIN, f64::MAX) };
+        Self::trusted(self.shape, self.values.iter().map(|v| held(v * amount)).collect())
     }
+}
+
+fn held(density: f64) -> f64 {
+    density.clamp(-MAX_DENSITY, MAX_DENSITY)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::quantity::{OpticalDensity, Power, Reflectance};
+    use super::quantity::{OpticalDensity, Power, Reflectance, Transmittance};
     use super::*;
     use approx::assert_relative_eq;
 
@@ -214,6 +228,32 @@ mod tests {
         assert!(SpectralDistribution::<Power>::from_fn(shape, |nm| if nm == 500.0 { f64::NAN } else { 1.0 }).is_err());
         let error = SpectralDistribution::<Reflectance>::from_fn(shape, |nm| nm / 700.0).unwrap_err();
         assert_eq!(error.to_string(), "reflectance at 701 nm: found 1.0014285714285713, expected 0 to 1");
+    }
+
+    #[test]
+    fn arithmetic_keeps_what_the_door_promises() {
+        let shape = SpectralShape::VISIBLE;
+        let density = |d: f64| SpectralDistribution::<OpticalDensity>::from_fn(shape, |_| d);
+        for d in [300.1, -300.1, f64::NAN, f64::INFINITY] {
+            let error = density(d).unwrap_err().to_string();
+            assert!(error.ends_with(&format!("found {d}, expected -300 to 300")), "{error}");
+        }
+        for d in [300.0, -300.0, 0.0, 1.0] {
+            let film = density(d).unwrap();
+            for made in
+                [film.stacked_on(&film), film.scaled(f64::MAX), film.scaled(f64::NEG_INFINITY), film.scaled(f64::NAN)]
+            {
+                assert!(made.values().iter().all(|v| OpticalDensity::allows(*v)), "{d}");
+                assert!(made.transmittance().values().iter().all(|v| Transmittance::allows(*v)), "{d}");
+            }
+        }
+        let light = SpectralDistribution::<Power>::from_fn(shape, |nm| if nm < 500.0 { 0.0 } else { 1e300 }).unwrap();
+        let clear = density(-300.0).unwrap().transmittance();
+        assert!(light.through(&clear).values().iter().all(|v| Power::allows(*v)));
+        for factor in [-1.0, f64::NAN, f64::INFINITY, f64::MAX] {
+            assert!(light.scaled(factor).values().iter().all(|v| Power::allows(*v)), "{factor}");
+        }
+        assert_eq!(light.scaled(-1.0).integral(), 0.0);
     }
 
     #[test]

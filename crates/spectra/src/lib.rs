@@ -3,6 +3,8 @@
 //! - [`SpectralDistribution`]: a quantity over wavelength whose meaning is in its type
 //! - [`Observer`], [`illuminant()`], [`black_body`]: the CIE 1931 eye and the lights
 //! - [`RgbSpace`], [`TransferCurve`]: displays and working spaces, with any white
+//! - [`SceneCurve`], [`CodedSpace`]: the codings of cameras and grading programs
+//! - [`BufferFormat`]: what a low-precision frame buffer keeps of a picture
 //! - [`Basis`]: a spectrum for an RGB value ([`Reconstruction`] says which)
 //! - [`lux_to_w_per_m2`], [`lamp_rgb_w_per_m2`]: photometric to radiometric quantities
 //! - [`DisplayDifference`]: CIEDE2000 between two pictures
@@ -23,6 +25,7 @@
 //! Keys in square brackets are resolved in REFERENCES.md at the top of the repository.
 
 mod blackbody;
+mod buffer;
 mod color_checker;
 mod difference;
 mod distribution;
@@ -39,6 +42,7 @@ mod tabulated;
 mod transfer;
 
 pub use blackbody::{Kelvin, black_body, planck_radiance};
+pub use buffer::BufferFormat;
 pub use color_checker::{Patch, color_checker};
 pub use difference::{DisplayDifference, ciede2000};
 pub use distribution::{Quantity, SpectralDistribution, quantity};
@@ -53,4 +57,4 @@ pub use rgb::{Chromaticity, RgbSpace};
 pub use shape::SpectralShape;
 pub use table::{MAX_COLUMNS, MAX_ROWS, Nodes, NumberTable};
 pub use tabulated::{Outside, linear};
-pub use transfer::TransferCurve;
+pub use transfer::{CameraLog, CodedSpace, SceneCurve, TransferCurve};

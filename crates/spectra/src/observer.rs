@@ -52,6 +52,9 @@ impl Observer {
     }
 
     /// Tristimulus values: the integral of power times each function over nm, not normalised.
+    ///
+    /// # Panics
+    /// If the light is not on the grid of the observer.
     #[must_use]
     pub fn xyz(&self, light: &SpectralDistribution<Power>) -> Vector3<f64> {
         let [x, y, z] = &self.matching;

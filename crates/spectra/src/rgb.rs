@@ -76,6 +76,16 @@ impl RgbSpace {
     pub const ACESCG: Self = Self::new([(0.713, 0.293), (0.165, 0.830), (0.128, 0.044)], Chromaticity::ACES);
     /// ACES2065-1, the AP0 primaries (\[ST2065-1\]).
     pub const ACES2065_1: Self = Self::new([(0.7347, 0.2653), (0.0, 1.0), (0.0001, -0.0770)], Chromaticity::ACES);
+    /// ARRI Wide Gamut 4, the primaries of LogC4 (\[ArriLogC4\]).
+    pub const ARRI_WIDE_GAMUT_4: Self =
+        Self::new([(0.7347, 0.2653), (0.1424, 0.8576), (0.0991, -0.0308)], Chromaticity::D65);
+    /// Sony S-Gamut3 (\[SonySLog3\]).
+    pub const S_GAMUT3: Self = Self::new([(0.730, 0.280), (0.140, 0.855), (0.100, -0.050)], Chromaticity::D65);
+    /// Sony S-Gamut3.Cine (\[SonySLog3\]).
+    pub const S_GAMUT3_CINE: Self = Self::new([(0.766, 0.275), (0.225, 0.800), (0.089, -0.087)], Chromaticity::D65);
+    /// DaVinci Wide Gamut (\[DaVinciIntermediate\]).
+    pub const DAVINCI_WIDE_GAMUT: Self =
+        Self::new([(0.8000, 0.3130), (0.1682, 0.9877), (0.0790, -0.1155)], Chromaticity::D65);
 
     /// A space from the xy of its primaries and its white.
     #[must_use]
@@ -132,8 +142,17 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    const ALL: [RgbSpace; 5] =
-        [RgbSpace::SRGB, RgbSpace::DISPLAY_P3, RgbSpace::REC2020, RgbSpace::ACESCG, RgbSpace::ACES2065_1];
+    const ALL: [RgbSpace; 9] = [
+        RgbSpace::SRGB,
+        RgbSpace::DISPLAY_P3,
+        RgbSpace::REC2020,
+        RgbSpace::ACESCG,
+        RgbSpace::ACES2065_1,
+        RgbSpace::ARRI_WIDE_GAMUT_4,
+        RgbSpace::S_GAMUT3,
+        RgbSpace::S_GAMUT3_CINE,
+        RgbSpace::DAVINCI_WIDE_GAMUT,
+    ];
 
     #[test]
     fn ones_are_the_white() {
@@ -161,6 +180,37 @@ mod tests {
         // [IEC61966-2-1], four digits as printed.
         let published = Matrix3::new(0.4124, 0.3576, 0.1805, 0.2126, 0.7152, 0.0722, 0.0193, 0.1192, 0.9505);
         assert_relative_eq!(RgbSpace::SRGB.to_xyz().unwrap(), published, epsilon = 5.1e-5);
+    }
+
+    #[test]
+    #[rustfmt::skip]
+    fn camera_matrices_are_the_published_ones() {
+        let published = [
+            // [ArriLogC4]; the other three as their makers print them.
+            (RgbSpace::ARRI_WIDE_GAMUT_4, [
+                0.704858320407, 0.129760295170, 0.115837311473,
+                0.254524176404, 0.781477732712, -0.036001909116,
+                0.0, 0.0, 1.089057750759,
+            ]),
+            (RgbSpace::S_GAMUT3, [
+                0.7064827132, 0.1288010498, 0.1151721641,
+                0.2709796708, 0.7866064112, -0.0575860820,
+                -0.0096778454, 0.0046000375, 1.0941355587,
+            ]),
+            (RgbSpace::S_GAMUT3_CINE, [
+                0.5990839208, 0.2489255161, 0.1024464902,
+                0.2150758201, 0.8850685017, -0.1001443219,
+                -0.0320658495, -0.0276583907, 1.1487819910,
+            ]),
+            (RgbSpace::DAVINCI_WIDE_GAMUT, [
+                0.70062239, 0.14877482, 0.10105872,
+                0.27411851, 0.87363190, -0.14775041,
+                -0.09896291, -0.13789533, 1.32591599,
+            ]),
+        ];
+        for (space, rows) in published {
+            assert_relative_eq!(space.to_xyz().unwrap(), Matrix3::from_row_slice(&rows), epsilon = 6e-9);
+        }
     }
 
     #[test]

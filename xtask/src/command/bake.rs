@@ -1,33 +1,59 @@
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::PathBuf;
 
-use anyhow::Result;
-use clap::{Args, ValueEnum};
-use onelight::{Process, Reference};
-use onelight_lut::{CubeFile, Deviation, Interpolation, PlainLut, SceneSampler, Shaper, bake, deviation};
+use anyhow::{Context, Result, bail};
+use clap::Args;
+use onelight::lut::{Certificate, Deviation, Law, Search, Storage, deviation};
+use onelight::{Entries, Process, Reference, TableCoding, TransferCurve, Word, WorkingSpace};
 use serde_json::json;
 
+use crate::certificate::{Measure, in_words, to_six_stops};
+use crate::compiled::{
+    CodingChoice, Compiled, EntriesChoice, Form, Recipe, ShaperChoice, StorageChoice, smallest_under,
+};
+use crate::export::{Export, Format};
 use crate::look::LookArguments;
-use crate::progress::{Clock, bar};
-use crate::whole::write_whole;
-use crate::{Report, folders, preview};
+use crate::progress::Clock;
+use crate::whole::WholeSet;
+use crate::{Report, folders, preview, scene_colours};
 
-/// Colours that a bake measures itself on.
-const SAMPLES: usize = 1 << 14;
-/// The range of those colours, and of the table, in stops about mid grey.
-const STOPS: (f64, f64) = (-10.0, 6.0);
+/// A table whose largest certified difference is above this deserves a warning, unless `--max-de` names another.
+const WARN_ABOVE: f64 = 2.0;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     look: LookArguments,
-    /// Nodes along each side of the table
-    #[arg(long, default_value_t = 33, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=129))]
-    size: u16,
-    /// How scene light becomes a coordinate of the table
+    /// What the look is baked to
+    #[arg(long, default_value = "plain")]
+    form: Form,
+    /// Nodes along each side of the table [default: 33 plain, 32 structured]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=129))]
+    size: Option<u16>,
+    /// How scene light becomes a coordinate of a plain table
     #[arg(long, default_value = "log2")]
     shaper: ShaperChoice,
+    /// Where the range of a plain table ends, in stops over mid grey [default: fitted to the look]
+    #[arg(long, value_name = "STOPS", value_parser = stops)]
+    stops: Option<f64>,
+    /// Where the entries come from [default: sampled plain, fitted structured]
+    #[arg(long)]
+    entries: Option<EntriesChoice>,
+    /// How the entries are stored; what is measured is what was stored
+    #[arg(long, default_value = "f32")]
+    storage: StorageChoice,
+    /// What the entries of a structured table are
+    #[arg(long, default_value = "density")]
+    coding: CodingChoice,
+    /// Files to write, comma-separated [default: cube for plain, clf for structured]
+    #[arg(long, value_delimiter = ',', value_name = "FORMATS")]
+    format: Vec<Format>,
+    /// Choose size and storage: the smallest structured table whose certified maximum is at most X
+    #[arg(long, value_name = "X", conflicts_with_all = ["size", "storage", "coding", "shaper", "stops", "entries"])]
+    max_de: Option<f64>,
+    /// Pictures to measure on, and to fit the range of a plain table to
+    #[arg(long, num_args = 1.., value_name = "EXR")]
+    scene: Vec<PathBuf>,
     /// Folder to write to (target/onelight/ and the films' names if left out)
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -36,176 +62,201 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// The shapers that `bake` knows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ShaperChoice {
-    /// log2 with an offset fitted to the look, 0 to +6 stops over mid grey
-    Log2,
-    /// The talk's: log2(u + 0.191406), 0 to 4
-    Gotanda,
-}
-
-/// A baked look: the table and how the time went.
-pub(crate) struct Baked {
-    pub(crate) lut: PlainLut,
-    pub(crate) shaper: Shaper,
-}
-
 pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let mut clock = Clock::default();
-    let process = arguments.look.process()?;
+    let mut process = arguments.look.process()?;
+    let mut notes = Vec::new();
+    if arguments.shaper == ShaperChoice::Bevy && process.output_coding != TransferCurve::Linear {
+        notes.push(format!("Bevy's tables hold linear light: not coded by {}", process.output_coding.word()));
+        process.output_coding = TransferCurve::Linear;
+    }
     let film = clock.time("compile", || process.compile())?;
-    let size = usize::from(arguments.size);
-    let Baked { lut, shaper } = clock.time("bake", || plain(&film, size, arguments.shaper))?;
-    let (cube, text) = clock.time("cube", || cube_text(&process, &lut))?;
-    let measured = clock.time("measure", || measure(&film, &cube))?;
+    let scene = clock.time("scene", || scene_colours::read(&arguments.scene, &process))?;
+    let recipe = clock.time("choose", || recipe(arguments, &film, &process))?;
+    let formats = formats(arguments, recipe.form)?;
+    let compiled = clock.time("bake", || Compiled::new(&film, &process, &recipe, scene.as_deref()))?;
+    let measured = clock.time("certify", || Measured::new(&film, &process, &compiled, scene.as_deref()))?;
     let folder = match &arguments.out {
         Some(folder) => folders::make(folder)?,
         None => folders::output(&process.name())?,
     };
-    let files = [folder.join("look.cube"), folder.join("look.toml"), folder.join("preview.png")];
-    clock.time("write", || {
-        write_whole(&files[0], |file| Ok(file.write_all(&text)?))?;
-        write_whole(&files[1], |file| Ok(file.write_all(process.to_toml().as_bytes())?))
-    })?;
-    clock.time("preview", || preview::write(&files[2], &process, &lut))?;
-    Ok(report(arguments, &process, &shaper, &measured, &files, &clock))
-}
-
-/// Bakes the plain form: scene-linear RGB to display-coded RGB.
-pub(crate) fn plain(film: &Reference, size: usize, choice: ShaperChoice) -> Result<Baked> {
-    let shaper = match choice {
-        ShaperChoice::Gotanda => Shaper::gotanda(),
-        ShaperChoice::Log2 => fitted_shaper(film)?,
-    };
-    let progress = bar("baking", size.pow(3) as u64);
-    let table = bake(size, &shaper, |rgb| film.develop(rgb), |done| progress.set_position(done as u64))?;
-    progress.finish_and_clear();
-    Ok(Baked { lut: PlainLut::new(shaper, table, Interpolation::Tetrahedral), shaper })
-}
-
-/// The offset whose table comes nearest to the film, by golden section on small tables.
-fn fitted_shaper(film: &Reference) -> Result<Shaper> {
-    /// Side of the trial tables: small, but with the error pattern of a full one.
-    const TRIAL_SIZE: usize = 12;
-    const TRIAL_SAMPLES: usize = 1 << 10;
-    /// log2 of the smallest and largest offset.
-    const OFFSETS: (f64, f64) = (-11.0, -2.0);
-    const STEPS: usize = 8;
-    let samples: Vec<[f64; 3]> = samples(TRIAL_SAMPLES)?;
-    let difference = film.difference()?;
-    let exact: Vec<[f64; 3]> = developed(film, &samples);
-    let indices: Vec<[f64; 3]> = (0..samples.len()).map(|i| [i as f64, 0.0, 0.0]).collect();
-    let at = |offset: f64| -> Result<f64> {
-        let shaper = shaper(offset)?;
-        let lut = bake(TRIAL_SIZE, &shaper, |rgb| film.develop(rgb), |_| {})?;
-        let lut = PlainLut::new(shaper, lut, Interpolation::Tetrahedral);
-        let candidate = |[i, _, _]: [f64; 3]| {
-            let coded = lut.apply(samples[i as usize].map(|v| v as f32));
-            coded.map(|v| film.coding().decode(f64::from(v)))
-        };
-        let measure = |a: &[f64; 3], b: &[f64; 3]| difference.between(*a, *b);
-        Ok(deviation(&indices, |[i, _, _]| exact[i as usize], candidate, measure)?.mean)
-    };
-    let ratio = 0.5 * (5f64.sqrt() - 1.0);
-    let (mut low, mut high) = OFFSETS;
-    let (mut a, mut b) = (high - ratio * (high - low), low + ratio * (high - low));
-    let (mut error_a, mut error_b) = (at(a)?, at(b)?);
-    for _ in 0..STEPS {
-        if error_a <= error_b {
-            (high, b, error_b) = (b, a, error_a);
-            a = high - ratio * (high - low);
-            error_a = at(a)?;
-        } else {
-            (low, a, error_a) = (a, b, error_b);
-            b = low + ratio * (high - low);
-            error_b = at(b)?;
+    let export = Export { process: &process, compiled: &compiled, comments: measured.comments(&process, &compiled) };
+    let mut files = WholeSet::in_folder(&folder);
+    clock.time("write", || -> Result<()> {
+        for format in &formats {
+            export.add(*format, &mut files)?;
         }
+        files.add("look.toml", process.to_toml().into_bytes());
+        files.add("look.json", serde_json::to_vec_pretty(&json(arguments, &process, &recipe, &compiled, &measured))?);
+        Ok(())
+    })?;
+    let preview = clock.time("preview", || preview::sheet(&process, &compiled))?;
+    files.add("preview.png", preview);
+    let written = clock.time("save", || files.write())?;
+    let shown: Vec<String> = written.iter().map(|file| folders::shown(file)).collect();
+    let mut text = String::new();
+    let _ = writeln!(text, "{}, {} aim: {}", process.name(), process.aim.word(), compiled.describe());
+    for file in &shown {
+        let _ = writeln!(text, "  {file}");
     }
-    shaper(0.5 * (low + high))
+    for note in &notes {
+        let _ = writeln!(text, "  note: {note}");
+    }
+    text.push_str(&measured.text());
+    for sentence in measured.warnings(arguments.max_de) {
+        let _ = writeln!(text, "warning: {sentence}");
+    }
+    let _ = writeln!(text, "time: {}", clock.sentence());
+    let mut json = json(arguments, &process, &recipe, &compiled, &measured);
+    json["files"] = shown.into();
+    json["seconds"] = clock.json();
+    Ok(Report { text, json, as_json: arguments.json })
 }
 
-/// log2 with an offset of `2^exponent`, over the range of [`STOPS`].
-fn shaper(exponent: f64) -> Result<Shaper> {
-    Ok(Shaper::log2(exponent.exp2(), SceneSampler::MID_GREY * STOPS.1.exp2())?)
+fn stops(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|v| (1.0..=40.0).contains(v))
+        .ok_or_else(|| "expected a number of stops from 1 to 40".to_owned())
 }
 
-fn developed(film: &Reference, samples: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    use rayon::prelude::*;
-    samples.par_iter().map(|&rgb| film.develop_linear(rgb)).collect()
+fn recipe(arguments: &Arguments, film: &Reference, process: &Process) -> Result<Recipe> {
+    if let Some(limit) = arguments.max_de {
+        return smallest_under(film, process, limit);
+    }
+    let usual = Recipe::usual(arguments.form);
+    Ok(Recipe {
+        size: arguments.size.map_or_else(|| usual_size(arguments, usual.size), usize::from),
+        shaper: arguments.shaper,
+        stops: arguments.stops,
+        entries: arguments.entries.map_or(usual.entries, Entries::from),
+        storage: Storage::from(arguments.storage),
+        coding: TableCoding::from(arguments.coding),
+        ..usual
+    })
 }
 
-fn samples(count: usize) -> Result<Vec<[f64; 3]>> {
-    Ok(SceneSampler::new(STOPS.0..=STOPS.1)?.take(count).collect())
+/// The size that a format or an engine expects, where it expects one.
+fn usual_size(arguments: &Arguments, usual: usize) -> usize {
+    match arguments.format.as_slice() {
+        [Format::Hald] => 64,
+        [Format::Strip] => 32,
+        _ if arguments.shaper == ShaperChoice::Bevy => 64,
+        _ => usual,
+    }
 }
 
-/// The cube as text, and what reading that text gives.
-fn cube_text(process: &Process, lut: &PlainLut) -> Result<(CubeFile, Vec<u8>)> {
-    let comments = [
-        format!("onelight {}: {}", env!("CARGO_PKG_VERSION"), process.name()),
-        format!(
-            "input: scene-linear {}, 18 % grey at 0.18; output: display {}, {} coding",
-            onelight::Word::word(process.input_space),
-            onelight::Word::word(process.output_space),
-            onelight::Word::word(process.output_coding)
-        ),
-    ];
-    let cube = CubeFile::from_plain(lut, CubeFile::SHAPER_POINTS)?.with_title(&process.name()).with_comments(comments);
-    let mut text = Vec::new();
-    cube.write(&mut text)?;
-    let cube = CubeFile::read(&text[..])?;
-    Ok((cube, text))
-}
-
-/// How far the file's own numbers lie from the film.
-fn measure(film: &Reference, cube: &CubeFile) -> Result<Deviation> {
-    let difference = film.difference()?;
-    let decoded = |rgb: [f64; 3]| {
-        let coded = cube.apply(rgb.map(|v| v as f32), Interpolation::Tetrahedral);
-        coded.map(|v| film.coding().decode(f64::from(v)))
+fn formats(arguments: &Arguments, form: Form) -> Result<Vec<Format>> {
+    let usual = match form {
+        Form::Plain => Format::Cube,
+        Form::Structured => Format::Clf,
     };
-    let between = |a: &[f64; 3], b: &[f64; 3]| difference.between(*a, *b);
-    Ok(deviation(&samples(SAMPLES)?, |rgb| film.develop_linear(rgb), decoded, between)?)
+    let mut formats = if arguments.format.is_empty() { vec![usual] } else { arguments.format.clone() };
+    formats.dedup();
+    if form == Form::Structured
+        && let Some(format) = formats.iter().find(|format| **format != Format::Clf)
+    {
+        bail!("--format {} cannot hold the structured form, expected clf, or --form plain", format.word());
+    }
+    Ok(formats)
 }
 
-fn report(
+/// A table's certificates, and its deviation on the user's own pictures.
+struct Measured {
+    srgb: Certificate,
+    rec2020: Option<Certificate>,
+    scene: Option<Deviation>,
+}
+
+impl Measured {
+    fn new(film: &Reference, process: &Process, compiled: &Compiled, scene: Option<&[[f64; 3]]>) -> Result<Self> {
+        let measure = Measure::new(film, process)?;
+        let certify = |space| {
+            let samples = measure.samples(&Law::default(), space)?;
+            measure.certify_in(space, &samples, |rgb| compiled.apply(rgb), Search::Ascent)
+        };
+        // A plain table takes what is inside its own primaries only.
+        let rec2020 = match compiled {
+            Compiled::Structured(_) => Some(certify(WorkingSpace::Rec2020)?),
+            Compiled::Plain(_) | Compiled::Coded { .. } => None,
+        };
+        let scene = scene.map(|colours| on_scene(film, compiled, colours)).transpose()?;
+        Ok(Self { srgb: certify(WorkingSpace::Srgb)?, rec2020, scene })
+    }
+
+    fn text(&self) -> String {
+        let mut text = in_words(&self.srgb, "sRGB");
+        if let Some(wide) = &self.rec2020 {
+            let (mean, max) = (wide.overall.mean, wide.max_found);
+            let _ = writeln!(text, "  the same for Rec.2020 colours: mean {mean:.3}, max {max:.3}");
+        }
+        if let Some(d) = &self.scene {
+            let _ = writeln!(
+                text,
+                "on the scene given, {} pixels: mean {:.3}, p95 {:.3}, p99 {:.3}, max {:.3} at {:.4}, {:.4}, {:.4}",
+                d.count, d.mean, d.p95, d.p99, d.max, d.worst[0], d.worst[1], d.worst[2]
+            );
+        }
+        text
+    }
+
+    fn warnings(&self, max_de: Option<f64>) -> Vec<String> {
+        self.srgb.failures(max_de.unwrap_or(WARN_ABOVE))
+    }
+
+    /// A few lines for formats that hold comments.
+    fn comments(&self, process: &Process, compiled: &Compiled) -> Vec<String> {
+        let (mean, max) = to_six_stops(&self.srgb);
+        let certificate = &self.srgb;
+        vec![
+            format!(
+                "onelight {}: {}, {} aim, {}",
+                env!("CARGO_PKG_VERSION"),
+                process.name(),
+                process.aim.word(),
+                compiled.describe()
+            ),
+            format!(
+                "input: scene-linear {}, 18 % grey at 0.18; output: display {}, {} coding",
+                process.input_space.word(),
+                process.output_space.word(),
+                process.output_coding.word()
+            ),
+            format!(
+                "CIEDE2000 from the exact film, -10 to +10 stops: mean {:.3}, p99 {:.3}, max {:.3}; to +6 stops: mean {mean:.3}, max {max:.3}",
+                certificate.overall.mean, certificate.overall.p99, certificate.max_found
+            ),
+        ]
+    }
+}
+
+fn on_scene(film: &Reference, compiled: &Compiled, colours: &[[f64; 3]]) -> Result<Deviation> {
+    let difference = film.difference()?;
+    let table = |rgb: [f64; 3]| compiled.apply(rgb.map(|v| v as f32)).map(|v| film.coding().decode(f64::from(v)));
+    let between = |a: &[f64; 3], b: &[f64; 3]| difference.between(*a, *b);
+    deviation(colours, |rgb| film.develop_linear(rgb), table, between).context("the scene")
+}
+
+fn json(
     arguments: &Arguments,
     process: &Process,
-    shaper: &Shaper,
-    measured: &Deviation,
-    files: &[PathBuf; 3],
-    clock: &Clock,
-) -> Report {
-    let Deviation { mean, p95, p99, max, worst, .. } = measured;
-    let shown: Vec<String> = files.iter().map(|file| folders::shown(file)).collect();
-    let mut text = String::new();
-    let size = arguments.size;
-    // Writing to a string cannot fail.
-    let _ = writeln!(text, "{}, {} aim", process.name(), onelight::Word::word(process.aim));
-    let _ = writeln!(text, "  {}   {size}^3, {}, scene light 0 to {:.2}", shown[0], described(shaper), shaper.max());
-    let _ = writeln!(text, "  {}", shown[1]);
-    let _ = writeln!(text, "  {}", shown[2]);
-    let _ = writeln!(
-        text,
-        "deviation of look.cube from the film (CIEDE2000, {SAMPLES} colours, {} to {:+} stops, any saturation):\n  \
-         mean {mean:.3}, p95 {p95:.3}, p99 {p99:.3}, max {max:.3} at scene RGB {:.5}, {:.5}, {:.5}",
-        STOPS.0, STOPS.1, worst[0], worst[1], worst[2]
-    );
-    let _ = writeln!(text, "time: {}", clock.sentence());
-    let json = json!({
+    recipe: &Recipe,
+    compiled: &Compiled,
+    measured: &Measured,
+) -> serde_json::Value {
+    let limit = arguments.max_de.unwrap_or(WARN_ABOVE);
+    json!({
         "process": process,
-        "size": size,
-        "shaper": { "kind": described(shaper), "max": shaper.max() },
-        "deviation": { "unit": "CIEDE2000", "count": measured.count, "mean": mean, "p95": p95, "p99": p99, "max": max, "worst": worst },
-        "files": shown,
-        "seconds": clock.json(),
-    });
-    Report { text, json, as_json: arguments.json }
-}
-
-fn described(shaper: &Shaper) -> String {
-    match shaper.kind() {
-        onelight_lut::ShaperKind::Log2Offset { offset, .. } => format!("log2(u + {offset:.5})"),
-        _ => "shaper".to_owned(),
-    }
+        "form": recipe.form,
+        "size": recipe.size,
+        "storage": format!("{:?}", recipe.storage).to_lowercase(),
+        "coding": format!("{:?}", recipe.coding).to_lowercase(),
+        "description": compiled.describe(),
+        "unit": "CIEDE2000",
+        "certificate": measured.srgb,
+        "certificate_rec2020": measured.rec2020,
+        "scene": measured.scene,
+        "limit": limit,
+        "failures": measured.srgb.failures(limit),
+    })
 }

@@ -9,7 +9,7 @@ use onelight::{Process, Reference, TransferCurve, Word};
 use rayon::prelude::*;
 use serde_json::json;
 
-use super::bake::{ShaperChoice, plain};
+use crate::compiled::{self, Compiled, Recipe};
 use crate::look::{LookArguments, words};
 use crate::picture::{
     self, Bits, Chromaticities, Coding, ColourTag, Limits, Picture, Samples, Source, write_exr, write_png,
@@ -17,8 +17,6 @@ use crate::picture::{
 use crate::progress::{Clock, bar};
 use crate::{Report, folders};
 
-/// Nodes along each side of the table of `--form plain`.
-const PLAIN_SIZE: usize = 33;
 /// A picture whose log average lies further from mid grey, in stops, is worth a word.
 const FAR_STOPS: f64 = 4.0;
 /// What the log average of a picture should be.
@@ -43,9 +41,9 @@ pub(crate) struct Arguments {
     /// Transfer curve of a TIFF or PNG that comes in [default: srgb for integers, linear for floats]
     #[arg(long, value_parser = words::<TransferCurve>())]
     input_coding: Option<TransferCurve>,
-    /// Bits of a PNG that goes out
-    #[arg(long, default_value = "8", value_parser = ["8", "16"])]
-    bits: String,
+    /// Bits of a PNG that goes out [default: 8]
+    #[arg(long, value_parser = ["8", "16"], value_name = "8|16")]
+    bits: Option<String>,
     /// Print the result as one JSON object
     #[arg(long)]
     json: bool,
@@ -77,6 +75,8 @@ enum Form {
     Reference,
     /// A 33^3 table with a log2 shaper, as `bake` writes it
     Plain,
+    /// A 32^3 table whose axes are the film's curves, as `bake --form structured` writes it
+    Structured,
 }
 
 /// What the output's name asks for.
@@ -89,8 +89,17 @@ enum Target {
 pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let mut clock = Clock::default();
     let target = target(&arguments.output)?;
+    if same_file(&arguments.input, &arguments.output) {
+        bail!(
+            "{}: the output would replace the picture it is made from, expected another name",
+            arguments.output.display()
+        );
+    }
     let mut process = arguments.look.process()?;
     let mut notes = Vec::new();
+    if target == Target::Exr && arguments.bits.is_some() {
+        notes.push("an EXR holds 32-bit floats: --bits is not used".to_owned());
+    }
     if target == Target::Exr && process.output_coding != TransferCurve::Linear {
         notes.push(format!("an EXR holds linear light: not coded by {}", process.output_coding.word()));
         process.output_coding = TransferCurve::Linear;
@@ -99,9 +108,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let mut picture = clock.time("read", || picture::read(&arguments.input, &Limits::default()))?;
     notes.append(&mut picture.notes);
     let to_input = to_input_space(&picture, &process, arguments, &mut notes)?;
-    let ev = clock.time("prepare", || prepare(&mut picture, arguments, &to_input, &mut notes));
-    clock.time("develop", || develop(&mut picture, &film, arguments.form))?;
-    let size = [picture.width, picture.height];
+    let ev = clock.time("prepare", || prepare(&mut picture, arguments, &process, &to_input, &mut notes))?;
+    clock.time("develop", || develop(&mut picture, &film, &process, arguments.form, &mut notes))?;
+    let size = match target {
+        Target::Png => picture.windows.display_size,
+        Target::Exr => [picture.width, picture.height],
+    };
     clock.time("write", || write(&arguments.output, target, picture, &process, arguments))?;
     let mut text = String::new();
     let output = folders::shown(&arguments.output);
@@ -122,6 +134,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     Ok(Report { text, json, as_json: arguments.json })
 }
 
+fn same_file(a: &Path, b: &Path) -> bool {
+    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+}
+
 fn target(path: &Path) -> Result<Target> {
     match path.extension().map(|e| e.to_string_lossy().to_lowercase()).as_deref() {
         Some("png") => Ok(Target::Png),
@@ -139,7 +155,7 @@ fn to_input_space(
 ) -> Result<Matrix3<f64>> {
     let Some(c) = picture.primaries else { return Ok(Matrix3::identity()) };
     if arguments.look.names_input_space() {
-        notes.push(format!("the file's own chromaticities give way to {} of the look", process.input_space.word()));
+        notes.push(format!("the file's own chromaticities give way to --input-space {}", process.input_space.word()));
         return Ok(Matrix3::identity());
     }
     let xy = |[x, y]: [f32; 2]| (f64::from(x), f64::from(y));
@@ -151,7 +167,13 @@ fn to_input_space(
 }
 
 /// Decodes, converts and exposes the picture; the exposure in stops.
-fn prepare(picture: &mut Picture, arguments: &Arguments, to_input: &Matrix3<f64>, notes: &mut Vec<String>) -> f64 {
+fn prepare(
+    picture: &mut Picture,
+    arguments: &Arguments,
+    process: &Process,
+    to_input: &Matrix3<f64>,
+    notes: &mut Vec<String>,
+) -> Result<f64> {
     let coding = match (arguments.input_coding, picture.source) {
         (Some(_), Source::Exr) => {
             notes.push("an EXR holds linear light: --input-coding is not used".to_owned());
@@ -174,7 +196,7 @@ fn prepare(picture: &mut Picture, arguments: &Arguments, to_input: &Matrix3<f64>
             onelight::SCENE_MAX
         ));
     }
-    let average = log_average(picture);
+    let average = log_average(picture, to_input, process)?;
     let off = average.map(|average| (average / MID_GREY).log2());
     let ev = match (arguments.ev, off) {
         (Exposure::Stops(stops), _) => stops,
@@ -206,7 +228,7 @@ fn prepare(picture: &mut Picture, arguments: &Arguments, to_input: &Matrix3<f64>
             }
         });
     }
-    ev
+    Ok(ev)
 }
 
 /// What a channel counts as before it is mixed with others.
@@ -215,33 +237,53 @@ fn finite(rgb: [f32; 3]) -> [f64; 3] {
     rgb.map(|v| if v.is_nan() { 0.0 } else { f64::from(v).clamp(-limit, limit) })
 }
 
-/// Geometric mean of the luminance of the pixels that have any; `None` if none has.
-fn log_average(picture: &Picture) -> Option<f64> {
-    let luminance =
-        |rgb: &[f32; 3]| 0.2126 * f64::from(rgb[0]) + 0.7152 * f64::from(rgb[1]) + 0.0722 * f64::from(rgb[2]);
+/// Geometric mean of the luminance of the pixels that have any and are not fully transparent; `None` if none has.
+fn log_average(picture: &Picture, to_input: &Matrix3<f64>, process: &Process) -> Result<Option<f64>> {
+    let to_xyz = process.input_space.space().with_white(Chromaticity::black_body_6500_k()).to_xyz()?;
+    let weights = (to_xyz * to_input).row(1).transpose();
+    let covered = |i: usize| picture.alpha.as_ref().is_none_or(|alpha| alpha[i] != 0.0);
+    let luminance = |rgb: &[f32; 3]| weights.dot(&Vector3::from(rgb.map(f64::from)));
+    let pixels = picture.rgb.par_iter().enumerate().filter(|(i, _)| covered(*i));
     let logs: Vec<f64> =
-        picture.rgb.par_iter().map(luminance).filter(|y| *y > 0.0 && y.is_finite()).map(f64::log2).collect();
+        pixels.map(|(_, rgb)| luminance(rgb)).filter(|y| *y > 0.0 && y.is_finite()).map(f64::log2).collect();
     // Summed in order: the result does not depend on the number of threads.
-    (!logs.is_empty()).then(|| (logs.iter().sum::<f64>() / logs.len() as f64).exp2())
+    Ok((!logs.is_empty()).then(|| (logs.iter().sum::<f64>() / logs.len() as f64).exp2()))
 }
 
 /// Scene-linear to display-coded, in place.
-fn develop(picture: &mut Picture, film: &Reference, form: Form) -> Result<()> {
-    let progress = bar("developing", picture.rgb.len() as u64);
-    let width = picture.width;
-    match form {
-        Form::Reference => picture.rgb.par_chunks_mut(width).for_each(|row| {
-            for rgb in row.iter_mut() {
-                *rgb = film.develop(rgb.map(f64::from)).map(|v| v as f32);
-            }
-            progress.inc(width as u64);
-        }),
-        Form::Plain => {
-            let lut = plain(film, PLAIN_SIZE, ShaperChoice::Log2)?.lut;
-            lut.apply_to_slice(&mut picture.rgb);
+fn develop(
+    picture: &mut Picture,
+    film: &Reference,
+    process: &Process,
+    form: Form,
+    notes: &mut Vec<String>,
+) -> Result<()> {
+    let recipe = match form {
+        Form::Reference => {
+            let progress = bar("developing", picture.rgb.len() as u64);
+            let width = picture.width;
+            picture.rgb.par_chunks_mut(width).for_each(|row| {
+                for rgb in row.iter_mut() {
+                    *rgb = film.develop(rgb.map(f64::from)).map(|v| v as f32);
+                }
+                progress.inc(width as u64);
+            });
+            progress.finish_and_clear();
+            return Ok(());
+        }
+        Form::Plain => Recipe::usual(compiled::Form::Plain),
+        Form::Structured => Recipe::usual(compiled::Form::Structured),
+    };
+    let table = Compiled::new(film, process, &recipe, None)?;
+    if let Some(max) = table.max() {
+        let beyond = picture.rgb.par_iter().filter(|rgb| rgb.iter().any(|v| f64::from(*v) > max)).count();
+        if beyond > 0 {
+            notes.push(format!(
+                "{beyond} pixels are brighter than {max:.1}, where the plain table ends (--form structured has no end)"
+            ));
         }
     }
-    progress.finish_and_clear();
+    table.apply_to_slice(&mut picture.rgb);
     Ok(())
 }
 
@@ -258,14 +300,14 @@ fn write(path: &Path, target: Target, mut picture: Picture, process: &Process, a
             write_exr(path, &picture, &[("Software", &software), ("onelight look", &look)])
         }
         Target::Png => {
-            let bits = if arguments.bits == "16" { Bits::Sixteen } else { Bits::Eight };
+            let bits = if arguments.bits.as_deref() == Some("16") { Bits::Sixteen } else { Bits::Eight };
             let coding = match process.output_coding {
                 TransferCurve::Srgb => Coding::Srgb,
                 TransferCurve::Gamma24 => Coding::Gamma24,
                 TransferCurve::Linear => Coding::Linear,
             };
             let texts = [("Software", software.as_str()), ("onelight look", look.as_str())];
-            write_png(path, &picture.into_display(), bits, Some(&ColourTag { coding, primaries }), &texts)
+            write_png(path, &picture.into_display()?, bits, Some(&ColourTag { coding, primaries }), &texts)
         }
     }
 }

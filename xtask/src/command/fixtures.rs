@@ -36,7 +36,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let scene = clock.time("render", || Truth::render(size, &film))?;
     let folder = match &arguments.out {
         Some(folder) => folders::make(folder)?,
-        None if arguments.commit => folders::make(&folders::workspace().join("fixtures/scene"))?,
+        None if arguments.commit => folders::make(&folders::workspace()?.join("fixtures/scene"))?,
         None => folders::output("fixtures")?,
     };
     let files = [folder.join("scene.exr"), folder.join(format!("exposure_{TRUE_FILM}.exr"))];

@@ -1,6 +1,7 @@
 //! One module for each command: its arguments, `run`, and the report it gives.
 
 pub(crate) mod bake;
+pub(crate) mod certify;
 pub(crate) mod develop;
 pub(crate) mod fixtures;
 pub(crate) mod stocks;

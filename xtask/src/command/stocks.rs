@@ -1,4 +1,5 @@
 use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use clap::Args;
@@ -16,6 +17,9 @@ pub(crate) struct Arguments {
     /// Read every stock and compile a process with it; the first fault is an error
     #[arg(long)]
     check: bool,
+    /// Folder for the plot of one stock [default: target/onelight/stocks]
+    #[arg(long, value_name = "DIR", requires = "id")]
+    out: Option<PathBuf>,
     /// Print the result as one JSON object
     #[arg(long)]
     json: bool,
@@ -23,7 +27,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let (text, json) = match &arguments.id {
-        Some(id) => one(id)?,
+        Some(id) => one(id, arguments.out.as_deref())?,
         None if arguments.check => check()?,
         None => all()?,
     };
@@ -46,22 +50,26 @@ fn all() -> Result<(String, Value)> {
             stock.id(),
             kind(stock),
             format!("{first:.0}-{last:.0}"),
-            format!("{low:+.2}..{high:+.2}"),
+            format!("{}..{}", signed(low, 2), signed(high, 2)),
             axis(stock),
             aim(stock),
-            format!("{:.3}", mean(stock.uncertainty().characteristic)),
+            format!("{:.3}{}", mean(stock.uncertainty().characteristic), if is_assumed(stock) { "~" } else { "" }),
             derived(stock),
         );
     }
     text.push_str(
-        "+-D: how far two digitisations of the sheet differ in density, rms.  `cargo xtask stocks ID` plots one.\n",
+        "*    derived: the sheet states no aim\n\
+         +-D  how far two digitisations of the sheet differ in density, rms\n\
+         ~    assumed, as there is only one: three times the median of the others\n\
+         `cargo xtask stocks ID` plots one.\n",
     );
     Ok((text, Value::from(stocks.iter().map(as_json).collect::<Vec<_>>())))
 }
 
-fn one(id: &str) -> Result<(String, Value)> {
+fn one(id: &str, out: Option<&Path>) -> Result<(String, Value)> {
     let stock = stock(id)?;
-    let file = folders::output("stocks")?.join(format!("{id}.svg"));
+    let folder = out.map_or_else(|| folders::output("stocks"), folders::make)?;
+    let file = folder.join(format!("{id}.svg"));
     plot::write(&file, &stock)?;
     let uncertainty = stock.uncertainty();
     let mut text = format!("{}\n", stock.name());
@@ -77,7 +85,7 @@ fn one(id: &str) -> Result<(String, Value)> {
     line("D-max", densities(stock.characteristic().map(|curve| curve.d_max().0)));
     line("steepest slope", densities(stock.characteristic().map(steepest)));
     if let Ok(mid_grey) = stock.mid_grey() {
-        line("18 % grey at", format!("log10 H {:+.3}", mid_grey.0));
+        line("18 % grey at", format!("log10 H {}", signed(mid_grey.0, 3)));
         line("  with densities", densities(stock.characteristic().map(|curve| curve.density(mid_grey).0)));
     }
     if stock.aim().is_some() {
@@ -191,6 +199,19 @@ fn densities(values: PerLayer<f64>) -> String {
     format!("{r:.3} / {g:.3} / {b:.3}")
 }
 
+/// Whether nobody measured how far the figures can be trusted.
+fn is_assumed(stock: &Stock) -> bool {
+    stock.uncertainty().origin == "assumed"
+}
+
+/// With its sign; what rounds to nothing is `+0`.
+fn signed(value: f64, decimals: i32) -> String {
+    let scale = 10f64.powi(decimals);
+    // Adding 0 makes +0 of -0.
+    let rounded = (value * scale).round() / scale + 0.0;
+    format!("{rounded:+.0$}", decimals.unsigned_abs() as usize)
+}
+
 fn mean(values: [f64; 3]) -> f64 {
     values.iter().sum::<f64>() / 3.0
 }
@@ -211,4 +232,36 @@ fn exposures(stock: &Stock) -> (f64, f64) {
 fn widest(ranges: PerLayer<(f64, f64)>) -> (f64, f64) {
     let fold = |a: (f64, f64), b: (f64, f64)| (a.0.min(b.0), a.1.max(b.1));
     ranges.to_array().into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), fold)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_has_no_minus() {
+        for (value, expected) in
+            [(-0.001, "+0.00"), (-0.0, "+0.00"), (0.004, "+0.00"), (-0.006, "-0.01"), (3.2, "+3.20")]
+        {
+            assert_eq!(signed(value, 2), expected);
+        }
+    }
+
+    #[test]
+    fn assumed_figures_are_marked_and_measured_ones_are_not() {
+        let (text, _) = all().unwrap();
+        assert!(!text.contains("-0.00"), "{text}");
+        let row = |id: &str| text.lines().find(|line| line.starts_with(id)).unwrap().to_owned();
+        for stock in stock_ids().map(|id| stock(id).unwrap()) {
+            // Where nobody compared two digitisations, the same figure stands for several stocks.
+            assert_eq!(
+                row(stock.id()).contains('~'),
+                stock.uncertainty().origin != "two digitisations",
+                "{}",
+                stock.id()
+            );
+        }
+        assert!(row("fuji-eterna-500").contains("0.015~") && row("fuji-3513di").contains('*'));
+        assert!(text.lines().any(|line| line.starts_with("~ ")) && text.lines().any(|line| line.starts_with("* ")));
+    }
 }

@@ -41,7 +41,7 @@ const FOREIGN_WORDS: [(&str, &[&str]); 3] = [
 const MAX_LINES: usize = 500;
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
-    let top = folders::workspace();
+    let top = folders::workspace()?;
     let mut faults = Vec::new();
     let mut files = 0;
     for (folder, allowed) in LAYERS {

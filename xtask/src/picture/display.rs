@@ -1,6 +1,8 @@
 //! What a viewer shows: the display window.
 
-use super::{Picture, Windows};
+use anyhow::Result;
+
+use super::{Picture, Windows, limits::allocate};
 
 /// A display-coded picture: 0 is black, 1 the display's white.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,27 +20,30 @@ pub(crate) struct DisplayPicture {
 impl Picture {
     /// The display window of a picture whose colours are display-coded already: what lies outside is cut off, and what
     /// is missing is black, transparent where there is alpha.
-    pub(crate) fn into_display(self) -> DisplayPicture {
+    ///
+    /// # Errors
+    /// If there is no memory for it.
+    pub(crate) fn into_display(self) -> Result<DisplayPicture> {
         let Self { width, height, rgb, alpha, windows, .. } = self;
         let [shown_width, shown_height] = windows.display_size;
         if windows.data_origin == windows.display_origin && [width, height] == windows.display_size {
-            return DisplayPicture { width, height, rgb, alpha };
+            return Ok(DisplayPicture { width, height, rgb, alpha });
         }
-        DisplayPicture {
+        Ok(DisplayPicture {
             width: shown_width,
             height: shown_height,
-            rgb: shown(&rgb, [width, height], &windows),
-            alpha: alpha.map(|alpha| shown(&alpha, [width, height], &windows)),
-        }
+            rgb: shown(&rgb, [width, height], &windows)?,
+            alpha: alpha.map(|alpha| shown(&alpha, [width, height], &windows)).transpose()?,
+        })
     }
 }
 
 /// The values in the display window, those outside the data window being the default.
-fn shown<T: Copy + Default>(values: &[T], size: [usize; 2], windows: &Windows) -> Vec<T> {
+fn shown<T: Copy + Default>(values: &[T], size: [usize; 2], windows: &Windows) -> Result<Vec<T>> {
     let [width, height] = windows.display_size;
     let columns = Overlap::new(windows, size, 0);
     let rows = Overlap::new(windows, size, 1);
-    let mut out = vec![T::default(); width * height];
+    let mut out = allocate(width * height, T::default())?;
     if columns.count > 0 {
         for row in 0..rows.count {
             let to = (rows.to + row) * width + columns.to;
@@ -46,7 +51,7 @@ fn shown<T: Copy + Default>(values: &[T], size: [usize; 2], windows: &Windows) -
             out[to..to + columns.count].copy_from_slice(&values[from..from + columns.count]);
         }
     }
-    out
+    Ok(out)
 }
 
 /// Where the windows overlap along one axis: `count` pixels `from` the data window `to` the display window.

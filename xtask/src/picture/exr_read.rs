@@ -13,8 +13,9 @@ use exr::{
 };
 
 use super::{
-    Chromaticities, Limits, Picture, Source, Windows, alpha, exr_blocks, exr_boxes, exr_layout, guard::guarded,
-    limits::check_claim,
+    Chromaticities, Limits, Picture, Source, Windows, alpha, exr_blocks, exr_boxes, exr_layout,
+    guard::guarded,
+    limits::{check_claim, check_shown},
 };
 
 /// The compressions that are read, for messages.
@@ -78,7 +79,9 @@ fn check(header: &Header, length: u64, limits: &Limits) -> Result<()> {
     let (width, height) = (header.layer_size.0 as u64, header.layer_size.1 as u64);
     limits.check_size("the data window", width, height)?;
     let IntegerBounds { size, .. } = header.shared_attributes.display_window;
-    limits.check_size("the display window", size.0 as u64, size.1 as u64)?;
+    let shown = (size.0 as u64, size.1 as u64);
+    limits.check_size("the display window", shown.0, shown.1)?;
+    check_shown((width, height), shown)?;
     if let BlockDescription::Tiles(tiles) = header.blocks {
         let tile = tiles.tile_size;
         if tile.0 as u64 > limits.max_side || tile.1 as u64 > limits.max_side {

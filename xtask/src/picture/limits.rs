@@ -34,6 +34,27 @@ impl Limits {
     }
 }
 
+/// A display window may have this many pixels whatever the data window has (192 MiB of `f32` RGB), ...
+const SHOWN_FREELY: u64 = 1 << 24;
+/// ... and beyond that this many times as many as the data window.
+const SHOWN_PER_PIXEL: u64 = 64;
+
+/// Refuses a display window that is nearly all empty, so that a small file cannot ask for a large picture.
+pub(super) fn check_shown(data: (u64, u64), display: (u64, u64)) -> Result<()> {
+    let (pixels, shown) = (data.0.saturating_mul(data.1), display.0.saturating_mul(display.1));
+    if shown > SHOWN_FREELY && shown > pixels.saturating_mul(SHOWN_PER_PIXEL) {
+        bail!(
+            "the display window is {} x {} pixels for a data window of {} x {}, expected at most {SHOWN_PER_PIXEL} times \
+             as many, or {SHOWN_FREELY} pixels",
+            display.0,
+            display.1,
+            data.0,
+            data.1
+        );
+    }
+    Ok(())
+}
+
 /// Refuses a header that claims more than the file can hold: `claimed` bytes of samples from `length` bytes of file,
 /// where one byte gives at most `expansion` bytes.
 pub(super) fn check_claim(width: u64, height: u64, claimed: u64, length: u64, expansion: u64) -> Result<()> {

@@ -6,7 +6,7 @@ use anyhow::{Result, anyhow, bail};
 use png::{BitDepth, ColorType, Compression, Encoder, ScaledFloat, SourceChromaticities};
 use rayon::prelude::*;
 
-use super::{Chromaticities, DisplayPicture};
+use super::{Chromaticities, DisplayPicture, limits::allocate};
 use crate::whole::write_whole;
 
 /// Bits a sample.
@@ -95,7 +95,7 @@ pub(super) fn write_to(
         // The crate reads this chunk but does not write it. It comes before the pixels, as it must.
         writer.write_chunk(png::chunk::ChunkType(*b"cICP"), &points).map_err(|error| sentence(&error))?;
     }
-    writer.write_image_data(&samples(picture, bits)).map_err(|error| sentence(&error))?;
+    writer.write_image_data(&samples(picture, bits)?).map_err(|error| sentence(&error))?;
     writer.finish().map_err(|error| sentence(&error))
 }
 
@@ -148,19 +148,19 @@ impl Chromaticities {
 }
 
 /// All samples as PNG stores them.
-fn samples(picture: &DisplayPicture, bits: Bits) -> Vec<u8> {
+fn samples(picture: &DisplayPicture, bits: Bits) -> Result<Vec<u8>> {
     match bits {
         Bits::Eight => pack(picture, |value| [(value * 255.0).round() as u8]),
         Bits::Sixteen => pack(picture, |value| ((value * 65_535.0).round() as u16).to_be_bytes()),
     }
 }
 
-fn pack<const N: usize>(picture: &DisplayPicture, code: impl Fn(f32) -> [u8; N] + Sync) -> Vec<u8> {
+fn pack<const N: usize>(picture: &DisplayPicture, code: impl Fn(f32) -> [u8; N] + Sync) -> Result<Vec<u8>> {
     // A cast of NaN gives 0, so clamping need not ask.
     let code = |value: f32| code(value.clamp(0.0, 1.0));
     let channels = if picture.alpha.is_some() { 4 } else { 3 };
     let width = picture.width;
-    let mut bytes = vec![0; picture.rgb.len() * channels * N];
+    let mut bytes = allocate(picture.rgb.len() * channels * N, 0)?;
     bytes.par_chunks_mut(width * channels * N).zip(picture.rgb.par_chunks(width)).enumerate().for_each(
         |(row, (bytes, colours))| {
             let alpha = picture.alpha.as_ref().map(|alpha| &alpha[row * width..]);
@@ -171,7 +171,7 @@ fn pack<const N: usize>(picture: &DisplayPicture, code: impl Fn(f32) -> [u8; N] 
             }
         },
     );
-    bytes
+    Ok(bytes)
 }
 
 fn is_latin1(character: char) -> bool {

@@ -36,8 +36,8 @@ fn matching_constant(stock: &Stock) -> Result<f64, Error> {
     let dyes = stock.dyes_on(shape)?;
     let missing = |what| Error::stock(stock.id(), format!("the sheet shows no {what}, which literal dyes need"));
     let neutral = stock.neutral().ok_or_else(|| missing("midscale neutral"))?.on(shape)?;
-    let d_min = dyes.d_min.as_ref().ok_or_else(|| missing("D-min"))?;
-    let [c, m, y] = dyes.dyes.as_ref().map(SpectralDistribution::values).to_array();
+    let d_min = dyes.d_min().ok_or_else(|| missing("D-min"))?;
+    let [c, m, y] = dyes.dyes().map(SpectralDistribution::values).to_array();
     let (mut square, mut product) = (0.0, 0.0);
     for (i, nm) in shape.wavelengths_nm().enumerate() {
         if (NEUTRAL_FROM_NM..=NEUTRAL_TO_NM).contains(&nm) {

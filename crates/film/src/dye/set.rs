@@ -1,7 +1,7 @@
 use onelight_spectra::{Nodes, Pchip, SpectralDistribution, SpectralShape, quantity::OpticalDensity};
 
 use crate::curve::DyeAmount;
-use crate::error::Error;
+use crate::error::{Error, Kind};
 use crate::layer::PerLayer;
 use crate::tail;
 
@@ -54,7 +54,7 @@ impl DyeDensity {
     /// Density on a grid.
     ///
     /// # Errors
-    /// None for nodes that passed the constructor; the signature is that of the distribution.
+    /// If a node's density lies beyond what a density may be.
     pub fn on(&self, shape: SpectralShape) -> Result<SpectralDistribution<OpticalDensity>, Error> {
         Ok(SpectralDistribution::from_fn(shape, |nm| self.at(nm))?)
     }
@@ -75,13 +75,47 @@ impl DyeDensity {
 /// The dyes of a film on one wavelength grid: cyan is made by the red layer, magenta by the green, yellow by the blue.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dyes {
-    /// Density of one unit of each dye.
-    pub dyes: PerLayer<SpectralDistribution<OpticalDensity>>,
-    /// Density of the film without any dye; `None` for films whose curves are total densities (print, reversal).
-    pub d_min: Option<SpectralDistribution<OpticalDensity>>,
+    dyes: PerLayer<SpectralDistribution<OpticalDensity>>,
+    d_min: Option<SpectralDistribution<OpticalDensity>>,
 }
 
 impl Dyes {
+    /// The density of one unit of each dye, and of the film without any; `None` for films whose curves are total densities
+    /// (print, reversal).
+    ///
+    /// # Errors
+    /// If they are not on one wavelength grid.
+    pub fn new(
+        dyes: PerLayer<SpectralDistribution<OpticalDensity>>,
+        d_min: Option<SpectralDistribution<OpticalDensity>>,
+    ) -> Result<Self, Error> {
+        let expected = dyes.red.shape();
+        for found in [&dyes.green, &dyes.blue].into_iter().chain(&d_min).map(SpectralDistribution::shape) {
+            if found != expected {
+                return Err(Kind::Grids { found, expected }.into());
+            }
+        }
+        Ok(Self { dyes, d_min })
+    }
+
+    /// Density of one unit of each dye.
+    #[must_use]
+    pub fn dyes(&self) -> PerLayer<&SpectralDistribution<OpticalDensity>> {
+        self.dyes.as_ref()
+    }
+
+    /// Density of the film without any dye.
+    #[must_use]
+    pub fn d_min(&self) -> Option<&SpectralDistribution<OpticalDensity>> {
+        self.d_min.as_ref()
+    }
+
+    /// The wavelength grid of all of them.
+    #[must_use]
+    pub fn shape(&self) -> SpectralShape {
+        self.dyes.red.shape()
+    }
+
     /// Spectral density of a film that holds these amounts.
     #[must_use]
     pub fn density(&self, amounts: PerLayer<DyeAmount>) -> SpectralDistribution<OpticalDensity> {
@@ -102,6 +136,18 @@ mod tests {
     fn nodes(y: &[f64]) -> Nodes {
         let x = (0..y.len()).map(|i| 600.0 + 5.0 * i as f64).collect();
         Nodes { x, y: y.to_vec(), lines: vec![1; y.len()] }
+    }
+
+    #[test]
+    fn dyes_and_base_share_a_grid() {
+        let on = |shape| SpectralDistribution::<OpticalDensity>::from_fn(shape, |_| 0.3).unwrap();
+        let (visible, other) = (on(SpectralShape::VISIBLE), on(SpectralShape::by_1_nm::<400, 1000>()));
+        let dyes = Dyes::new(PerLayer::all(visible.clone()), Some(visible.clone())).unwrap();
+        assert_eq!(dyes.density(PerLayer::all(DyeAmount(2.0))).values()[0], 3.0 * 0.6 + 0.3);
+        let mixed = PerLayer { blue: other.clone(), ..PerLayer::all(visible.clone()) };
+        let message = "dyes and base of a film: found 400..1000 nm by 1 beside 380..780 nm by 1, expected one grid";
+        assert_eq!(Dyes::new(mixed, None).unwrap_err().to_string(), message);
+        assert_eq!(Dyes::new(PerLayer::all(visible), Some(other)).unwrap_err().to_string(), message);
     }
 
     #[test]

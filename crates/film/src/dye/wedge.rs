@@ -63,9 +63,9 @@ struct Reader {
 
 impl Reader {
     fn new(dyes: &Dyes, densitometry: Densitometry) -> Self {
-        let [c, m, y] = dyes.dyes.as_ref().map(SpectralDistribution::values).to_array();
+        let [c, m, y] = dyes.dyes().map(SpectralDistribution::values).to_array();
         let [r, g, b] = densitometry.responses().as_ref().map(SpectralDistribution::values).to_array();
-        let base = |i: usize| dyes.d_min.as_ref().map_or(0.0, |d| d.values()[i]);
+        let base = |i: usize| dyes.d_min().map_or(0.0, |d| d.values()[i]);
         let rows = (0..c.len()).map(|i| ([c[i], m[i], y[i]], base(i), [r[i], g[i], b[i]]));
         Self { rows: rows.filter(|(_, _, response)| response.iter().any(|&v| v > 0.0)).collect() }
     }

@@ -22,9 +22,9 @@ impl Camera {
     /// Shutter time in s and f-number.
     ///
     /// # Errors
-    /// If either is not a finite number above 0.
+    /// If the time is not within 1e-9 s to 1e9 s or the f-number not within 1e-3 to 1e6.
     pub fn new(shutter_s: f64, f_number: f64) -> Result<Self, Error> {
-        Ok(Self { shutter_s: positive("shutter time in s", shutter_s)?, f_number: positive("f-number", f_number)? })
+        Ok(Self { shutter_s: SHUTTER_S.check(shutter_s)?, f_number: F_NUMBER.check(f_number)? })
     }
 
     /// Exposure of the film: H = q L t / N^2. Luminance in cd/m^2 gives lux s, radiance in W/(m^2 sr) gives J/m^2.
@@ -48,11 +48,11 @@ impl FrameBufferScale {
     /// Shutter time in s, exposure divisor F, exposure index (ISO).
     ///
     /// # Errors
-    /// If one is not a finite number above 0.
+    /// If the time is not within 1e-9 s to 1e9 s, F not within 1e-6 to 1e12, or the index not within 1e-3 to 1e9.
     pub fn new(shutter_s: f64, exposure_divisor: f64, exposure_index: f64) -> Result<Self, Error> {
-        let t = positive("shutter time in s", shutter_s)?;
-        let f = positive("exposure divisor F", exposure_divisor)?;
-        let speed = positive("exposure index", exposure_index)? / 100.0;
+        let t = SHUTTER_S.check(shutter_s)?;
+        let f = EXPOSURE_DIVISOR.check(exposure_divisor)?;
+        let speed = EXPOSURE_INDEX.check(exposure_index)? / 100.0;
         Ok(Self { factor: 1000.0 * t / (f * speed), speed })
     }
 
@@ -69,9 +69,25 @@ impl FrameBufferScale {
     }
 }
 
-fn positive(what: &'static str, found: f64) -> Result<f64, Error> {
-    let expected = "a finite number above 0";
-    if found.is_finite() && found > 0.0 { Ok(found) } else { Err(Kind::Camera { what, found, expected }.into()) }
+/// A setting and the values it may have: all that a camera has and much more, but none that makes an exposure infinite.
+struct Setting {
+    what: &'static str,
+    allowed: std::ops::RangeInclusive<f64>,
+    expected: &'static str,
+}
+
+const SHUTTER_S: Setting = Setting { what: "shutter time in s", allowed: 1e-9..=1e9, expected: "1e-9 to 1e9" };
+const F_NUMBER: Setting = Setting { what: "f-number", allowed: 1e-3..=1e6, expected: "1e-3 to 1e6" };
+/// The squares of the f-numbers.
+const EXPOSURE_DIVISOR: Setting =
+    Setting { what: "exposure divisor F", allowed: 1e-6..=1e12, expected: "1e-6 to 1e12" };
+const EXPOSURE_INDEX: Setting = Setting { what: "exposure index", allowed: 1e-3..=1e9, expected: "1e-3 to 1e9" };
+
+impl Setting {
+    fn check(&self, found: f64) -> Result<f64, Error> {
+        let Self { what, expected, .. } = *self;
+        if self.allowed.contains(&found) { Ok(found) } else { Err(Kind::Camera { what, found, expected }.into()) }
+    }
 }
 
 #[cfg(test)]
@@ -84,7 +100,29 @@ mod tests {
         let h = |t, n| Camera::new(t, n).unwrap().focal_plane_exposure(100.0);
         assert_relative_eq!(h(1.0 / 30.0, 4.0), 2.0 * h(1.0 / 60.0, 4.0));
         assert_relative_eq!(h(1.0 / 60.0, 4.0), 2.0 * h(1.0 / 60.0, 4.0 * 2f64.sqrt()), max_relative = 1e-12);
-        assert!(Camera::new(0.0, 4.0).is_err() && Camera::new(1.0, f64::NAN).is_err());
+    }
+
+    #[test]
+    fn settings_that_no_camera_has_are_refused_and_all_others_give_finite_exposures() {
+        for hard in [0.0, -1.0, f64::MIN_POSITIVE, f64::MAX, f64::INFINITY, f64::NAN] {
+            assert!(Camera::new(hard, 4.0).is_err() && Camera::new(1.0, hard).is_err(), "{hard}");
+            assert!(
+                FrameBufferScale::new(hard, 4.0, 100.0).is_err() && FrameBufferScale::new(1.0, hard, 100.0).is_err()
+            );
+            assert!(FrameBufferScale::new(1.0, 4.0, hard).is_err(), "{hard}");
+        }
+        let error = Camera::new(1.0, 0.0).unwrap_err().to_string();
+        assert_eq!(error, "f-number: found 0, expected 1e-3 to 1e6");
+        for t in [1e-9, 1e9] {
+            for f in [1e-3, 1e6] {
+                let h = Camera::new(t, f).unwrap().focal_plane_exposure(1e6);
+                assert!(h.is_finite() && h > 0.0);
+                for speed in [1e-3, 1e9] {
+                    let stored = FrameBufferScale::new(t, f * f, speed).unwrap().stored(1e6);
+                    assert!(stored.is_finite() && stored > 0.0);
+                }
+            }
+        }
     }
 
     #[test]

@@ -295,13 +295,13 @@ impl Stock {
     /// Dyes, and for a negative D-min, on a grid. Prints and reversal films have none: their curves are total densities.
     ///
     /// # Errors
-    /// None for a stock that was read; the signature is that of the distributions.
+    /// If a density of the sheet lies beyond what a density may be.
     pub fn dyes_on(&self, shape: SpectralShape) -> Result<Dyes, Error> {
         let d_min = match self.kind() {
             StockKind::Negative => self.d_min.as_ref().map(|d| d.on(shape)).transpose()?,
             StockKind::Reversal | StockKind::Print => None,
         };
-        Ok(Dyes { dyes: self.dyes.as_ref().try_map(|dye, _| dye.on(shape))?, d_min })
+        Dyes::new(self.dyes.as_ref().try_map(|dye, _| dye.on(shape))?, d_min)
     }
 
     /// Where an 18 % grey card lies on the exposure axis, the same for all layers.

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 pub use toml_text::FormatVersion;
 
-use crate::error::Error;
+use crate::error::{Error, Kind};
 use crate::reference::Reference;
 use crate::stocks::stock;
 use crate::word::{self, WorkingSpace};
@@ -104,6 +104,21 @@ impl Process {
         Ok(Self { print: default_print(camera)?, ..process })
     }
 
+    /// What `print` is for a word: the id of a film, or `None` for `none`.
+    ///
+    /// # Errors
+    /// If the word is `none` in capitals.
+    pub fn parse_print(word: &str) -> Result<Option<String>, Error> {
+        match word {
+            "none" => Ok(None),
+            _ if word.eq_ignore_ascii_case("none") => {
+                let expected = "the id of a print film, or none (did you mean \"none\"?)".to_owned();
+                Err(Kind::Word { what: "print", found: word.to_owned(), expected }.into())
+            }
+            _ => Ok(Some(word.to_owned())),
+        }
+    }
+
     /// A short name made of the ids: `kodak-5207_kodak-2383`, `fuji-velvia-50`.
     #[must_use]
     pub fn name(&self) -> String {
@@ -131,8 +146,9 @@ impl Process {
 
 /// The print film that goes with a camera film unless another is named.
 fn default_print(camera: &str) -> Result<Option<String>, Error> {
-    Ok(match stock(camera)?.kind() {
-        StockKind::Negative => Some(DEFAULT_PRINT.to_owned()),
-        StockKind::Reversal | StockKind::Print => None,
-    })
+    match stock(camera)?.kind() {
+        StockKind::Negative => Ok(Some(DEFAULT_PRINT.to_owned())),
+        StockKind::Reversal => Ok(None),
+        StockKind::Print => Err(Error::print_film_in_camera(camera)),
+    }
 }

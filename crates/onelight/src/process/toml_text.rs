@@ -4,23 +4,23 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
 use super::{Process, default_print};
 use crate::error::{Error, Kind};
-use crate::stocks::nearest;
+use crate::stocks::{cut, nearest};
 
 /// The version of the format that this crate reads and writes: 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct FormatVersion;
 
-const VERSION: u32 = 1;
+const VERSION: i64 = 1;
 
 impl Serialize for FormatVersion {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_u32(VERSION)
+        serializer.serialize_i64(VERSION)
     }
 }
 
 impl<'de> Deserialize<'de> for FormatVersion {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        match u32::deserialize(deserializer)? {
+        match i64::deserialize(deserializer)? {
             VERSION => Ok(Self),
             found => Err(de::Error::custom(format!("version: found {found}, expected {VERSION}"))),
         }
@@ -59,19 +59,24 @@ impl Process {
         if text.len() > MAX_BYTES {
             return Err(at(1, format!("{} bytes, expected at most {MAX_BYTES}", text.len())));
         }
-        let refuse = |error: &toml::de::Error| {
-            let span = error.span().unwrap_or(0..0);
-            let line = text[..span.start].matches('\n').count() + 1;
-            let message = error.message();
-            let problem = if message.starts_with("unknown field") {
-                unknown_key(&text[span])
-            } else {
-                message.lines().next().unwrap_or_default().to_owned()
+        let line_of = |error: &toml::de::Error| {
+            let start = error.span().map_or(0, |span| span.start);
+            text.bytes().take(start).filter(|byte| *byte == b'\n').count() + 1
+        };
+        let first_line = |error: &toml::de::Error| error.message().lines().next().unwrap_or_default().to_owned();
+        let table: toml::Table = toml::from_str(text).map_err(|error| at(line_of(&error), first_line(&error)))?;
+        let mut process: Self = toml::from_str(text).map_err(|error| {
+            let line = line_of(&error);
+            let problem = match error.message().split('`').collect::<Vec<_>>()[..] {
+                ["unknown field ", key, ..] => unknown_key(key),
+                [start, ..] if start.starts_with("invalid type") => {
+                    let written = text.lines().nth(line - 1).unwrap_or_default();
+                    wrong_type(&table, written).unwrap_or_else(|| first_line(&error))
+                }
+                _ => first_line(&error),
             };
             at(line, problem)
-        };
-        let table: toml::Table = toml::from_str(text).map_err(|error| refuse(&error))?;
-        let mut process: Self = toml::from_str(text).map_err(|error| refuse(&error))?;
+        })?;
         if table.get("version").is_none() {
             return Err(at(1, format!("no version, expected `version = {VERSION}`")));
         }
@@ -89,15 +94,34 @@ impl Process {
     }
 }
 
-fn unknown_key(span: &str) -> String {
-    let found: String = span.split(['=', '\n']).next().unwrap_or_default().trim().chars().take(64).collect();
-    let meant = nearest(&found, KEYS.into_iter()).unwrap_or_default();
-    format!("unknown key {found:?}, did you mean {meant:?}?")
+fn unknown_key(found: &str) -> String {
+    let key = cut(found);
+    match nearest(found, KEYS.into_iter()) {
+        Some(meant) => format!("unknown key {key:?}, did you mean {meant:?}?"),
+        None => format!("unknown key {key:?}, expected one of {}", KEYS.join(", ")),
+    }
+}
+
+/// What the line `written`, whose value is of the wrong type, should have held.
+fn wrong_type(table: &toml::Table, written: &str) -> Option<String> {
+    let key = written.split(['=', '.']).next()?.trim_matches(|c: char| c.is_whitespace() || "\"'[]".contains(c));
+    let found = match table.get(key)? {
+        toml::Value::String(_) => "a word in quotes",
+        toml::Value::Integer(_) | toml::Value::Float(_) => "a number",
+        toml::Value::Boolean(_) => "true or false",
+        toml::Value::Datetime(_) => "a date or time",
+        toml::Value::Array(_) => "a list",
+        toml::Value::Table(_) => "a table",
+    };
+    let expected = if key == "version" { "1" } else { "a word in quotes" };
+    Some(format!("{key}: found {found}, expected {expected}"))
 }
 
 /// `print`: an id, or `"none"`.
 pub(super) mod print {
-    use serde::{Deserialize, Deserializer, Serializer};
+    use serde::{Deserialize, Deserializer, Serializer, de};
+
+    use super::Process;
 
     #[expect(clippy::ref_option, reason = "the signature serde asks for")]
     pub(crate) fn serialize<S: Serializer>(print: &Option<String>, serializer: S) -> Result<S::Ok, S::Error> {
@@ -105,8 +129,7 @@ pub(super) mod print {
     }
 
     pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<String>, D::Error> {
-        let print = String::deserialize(deserializer)?;
-        Ok(if print == "none" { None } else { Some(print) })
+        Process::parse_print(&String::deserialize(deserializer)?).map_err(de::Error::custom)
     }
 }
 
@@ -137,10 +160,39 @@ mod tests {
         assert_eq!(message("camera = \"kodak-5207\"\n"), "look.toml:1: no version, expected `version = 1`");
         assert_eq!(message("version = 2\n"), "look.toml:1: version: found 2, expected 1");
         assert!(message("version = 1\n\naim = \"netral\"\n").starts_with("look.toml:3: aim: found \"netral\""));
-        assert!(message("version = 1\naim = 7\n").starts_with("look.toml:2: "));
+        assert_eq!(
+            message("version = 1\n\"camera x\" = 3\n"),
+            "look.toml:2: unknown key \"camera x\", did you mean \"camera\"?"
+        );
+        let far = message("version = 1\nzzz = 3\n");
+        assert!(far.starts_with("look.toml:2: unknown key \"zzz\", expected one of version, camera,"), "{far}");
+        assert!(message(&format!("version = 1\n{} = 3\n", "z".repeat(1000))).len() < 400);
+        assert_eq!(
+            message("version = 1\nprint = \"NONE\"\n"),
+            "look.toml:2: print: found \"NONE\", expected the id of a print film, or none (did you mean \"none\"?)"
+        );
         assert!(message("version = \n").starts_with("look.toml:1: "));
         assert!(message("version = 1\ncamera = \"kodak-52007\"\n").contains("kodak-5207"));
         assert!(message(&"#\n".repeat(1 << 20)).contains("expected at most"));
+    }
+
+    #[test]
+    fn wrong_types_are_named_in_our_words() {
+        for (line, expected) in [
+            ("aim = 7", "aim: found a number, expected a word in quotes"),
+            ("  \"aim\" = 7.5 # a comment", "aim: found a number, expected a word in quotes"),
+            ("print = false", "print: found true or false, expected a word in quotes"),
+            ("camera = [\n\"kodak-5207\"]", "camera: found a list, expected a word in quotes"),
+            ("dyes = { a = 1 }", "dyes: found a table, expected a word in quotes"),
+            ("glass.thick = 3", "glass: found a table, expected a word in quotes"),
+            ("[projector]\nlamp = 1", "projector: found a table, expected a word in quotes"),
+            ("matching = 2026-01-01", "matching: found a date or time, expected a word in quotes"),
+        ] {
+            assert_eq!(message(&format!("version = 1\n{line}\n")), format!("look.toml:2: {expected}"));
+        }
+        assert_eq!(message("version = \"1\"\n"), "look.toml:1: version: found a word in quotes, expected 1");
+        assert_eq!(message("version = 1.0\n"), "look.toml:1: version: found a number, expected 1");
+        assert_eq!(message("version = -3\n"), "look.toml:1: version: found -3, expected 1");
     }
 
     #[test]

@@ -89,6 +89,9 @@ impl Basis {
     }
 
     /// The RGB of a light on 380..780 nm by 1 nm: (1, 1, 1) is the white.
+    ///
+    /// # Panics
+    /// If the light is on another grid.
     #[must_use]
     pub fn rgb_of(&self, light: &SpectralDistribution<Power>) -> Vector3<f64> {
         self.sensors.rgb(light)

@@ -189,7 +189,7 @@ fn the_display_window_is_shown() {
         pixel_aspect: 1.0,
     };
     let shown = |windows: Windows, alpha: Option<Vec<f32>>| {
-        let shown = Picture { windows, alpha, ..picture.clone() }.into_display();
+        let shown = Picture { windows, alpha, ..picture.clone() }.into_display().unwrap();
         assert_eq!(shown.rgb.len(), shown.width * shown.height);
         (shown.rgb.iter().map(|colour| colour[0] as i32).collect::<Vec<_>>(), shown.alpha)
     };

@@ -47,6 +47,29 @@ fn headers_that_lie_are_refused_before_memory_is_taken() {
 }
 
 #[test]
+fn a_display_window_is_at_most_64_times_the_data_or_16_million_pixels() {
+    let good = small_exr(Compression::ZIP1);
+    let sentence = refusal(&with_window(good.clone(), "displayWindow", [0, 0, 16_383, 16_383]));
+    assert_eq!(
+        sentence,
+        "the display window is 16384 x 16384 pixels for a data window of 8 x 8, expected at most 64 times as many, or \
+         16777216 pixels"
+    );
+    assert!(refusal(&with_window(good.clone(), "displayWindow", [0, 0, 4096, 4095])).contains("the display window"));
+    let largest = read_bytes(&with_window(good, "displayWindow", [0, 0, 4095, 4095])).unwrap();
+    assert_eq!(largest.into_display().unwrap().rgb.len(), 1 << 24);
+
+    // Above 16 million pixels the data window decides.
+    let square = |side: usize| {
+        let value = || FlatSamples::F16(vec![Default::default(); side * side]);
+        let channels = [("R", value()), ("G", value()), ("B", value())];
+        file(vec![layer(None, [side, side], Stored::lines(Compression::ZIP16), &channels)])
+    };
+    assert!(read_bytes(&with_window(square(512), "displayWindow", [0, 0, 4096, 4095])).is_err());
+    assert!(read_bytes(&with_window(square(513), "displayWindow", [0, 0, 4096, 4095])).is_ok());
+}
+
+#[test]
 fn png_and_tiff_headers_that_lie_are_refused() {
     let mut png = b"\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR".to_vec();
     png.extend([0, 0, 0x3f, 0, 0, 0, 0x3f, 0, 16, 6, 0, 0, 0]);

@@ -1,4 +1,12 @@
-/// How linear light becomes the numbers of a picture. Each curve is odd: `encode(-v) = -encode(v)`, so that colours
+//! Curves between linear light and coded values: of displays here, of cameras and grading programs in `scene`.
+
+mod camera_log;
+mod scene;
+
+pub use camera_log::CameraLog;
+pub use scene::{CodedSpace, SceneCurve};
+
+/// How linear light becomes the numbers of a finished picture ([`SceneCurve`] has those of cameras). Each curve is odd: `encode(-v) = -encode(v)`, so that colours
 /// outside the gamut survive until a file format clips them.
 ///
 /// ```

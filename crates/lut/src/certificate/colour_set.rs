@@ -1,0 +1,117 @@
+use serde::Serialize;
+
+use super::samples::Compared;
+use crate::deviation::Deviation;
+use crate::error::{Error, Kind};
+
+/// The exposures of every named colour, in stops about the colour as it was given.
+const STOPS: std::ops::RangeInclusive<i32> = -4..=4;
+const EXPOSURES: usize = 9;
+
+/// Named colours of the caller, such as the patches of a chart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ColourSet {
+    name: String,
+    colours: Vec<(String, [f64; 3])>,
+}
+
+impl ColourSet {
+    /// Colours with their names: scene-linear RGB as exposed for mid grey at
+    /// [`SceneSampler::MID_GREY`](crate::SceneSampler::MID_GREY).
+    ///
+    /// # Errors
+    ///
+    /// If there is no colour, or one is not made of finite numbers.
+    pub fn new<N: Into<String>>(
+        name: impl Into<String>,
+        colours: impl IntoIterator<Item = (N, [f64; 3])>,
+    ) -> Result<Self, Error> {
+        let colours: Vec<_> = colours.into_iter().map(|(name, colour)| (name.into(), colour)).collect();
+        if colours.is_empty() {
+            return Err(Kind::NoSamples.into());
+        }
+        if let Some(&found) = colours.iter().flat_map(|(_, colour)| colour).find(|u| !u.is_finite()) {
+            return Err(
+                Kind::Parameter { what: "channel of a named colour", found, expected: "a finite number" }.into()
+            );
+        }
+        Ok(Self { name: name.into(), colours })
+    }
+
+    /// What the set is called.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+}
+
+/// The difference over a [`ColourSet`], each colour at -4 to +4 stops by 1.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct SetDeviation {
+    /// What the set is called.
+    pub name: String,
+    /// The number of colours times that of exposures.
+    pub count: usize,
+    /// The mean difference.
+    pub mean: f64,
+    /// The largest difference.
+    pub max: f64,
+    /// The name of the colour with the largest difference.
+    pub worst_name: String,
+    /// Its exposure, in stops about the colour as it was given.
+    pub worst_stops: f64,
+    /// The colour so exposed, scene-linear RGB.
+    pub worst: [f64; 3],
+}
+
+/// Every colour at every exposure, colour by colour.
+pub(super) fn exposed(set: &ColourSet) -> impl Iterator<Item = [f64; 3]> {
+    set.colours.iter().flat_map(|(_, colour)| STOPS.map(|stops| colour.map(|u| u * f64::from(stops).exp2())))
+}
+
+pub(super) fn measure(
+    sets: &[ColourSet],
+    named: &Compared<'_>,
+    difference: &(impl Fn(&[f64; 3], &[f64; 3]) -> f64 + Sync),
+) -> Result<Vec<SetDeviation>, Error> {
+    let differences = named.differences(difference);
+    let mut from = 0;
+    sets.iter()
+        .map(|set| {
+            let range = from..from + set.colours.len() * EXPOSURES;
+            from = range.end;
+            let differences = &differences[range.clone()];
+            let found = Deviation::of(&named.places[range], differences.to_vec())?;
+            let worst = differences.iter().position(|&d| d >= found.max).unwrap_or(0);
+            Ok(SetDeviation {
+                name: set.name.clone(),
+                count: found.count,
+                mean: found.mean,
+                max: found.max,
+                worst_name: set.colours[worst / EXPOSURES].0.clone(),
+                worst_stops: f64::from(*STOPS.start()) + (worst % EXPOSURES) as f64,
+                worst: found.worst,
+            })
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exposures_are_as_many_as_said() {
+        let set = ColourSet::new("set", [("a", [1.0, 2.0, 3.0]), ("b", [0.0; 3])]).unwrap();
+        let all: Vec<_> = exposed(&set).collect();
+        assert_eq!(all.len(), 2 * EXPOSURES);
+        assert_eq!((all[0], all[4], all[8]), ([0.0625, 0.125, 0.1875], [1.0, 2.0, 3.0], [16.0, 32.0, 48.0]));
+    }
+
+    #[test]
+    fn bad_sets_are_refused() {
+        assert!(ColourSet::new("empty", [] as [(&str, [f64; 3]); 0]).is_err());
+        assert!(ColourSet::new("nan", [("a", [0.0, f64::NAN, 0.0])]).is_err());
+    }
+}

@@ -1,0 +1,90 @@
+use serde::Serialize;
+
+use super::law::Law;
+use super::samples::Compared;
+use super::scene_coordinates::grey;
+use crate::deviation::Deviation;
+use crate::error::{Error, Kind};
+
+/// A map on greys, from the darkest to the brightest stop of the law.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct NeutralAxis {
+    /// The number of greys.
+    pub count: usize,
+    /// The distance of neighbours, in stops.
+    pub step: f64,
+    /// The mean difference.
+    pub mean: f64,
+    /// The largest difference.
+    pub max: f64,
+    /// The exposure of the grey with the largest difference, in stops about mid grey.
+    pub worst_stops: f64,
+    /// Where the candidate gets darker with more light.
+    pub fall: Fall,
+    /// Where the reference itself does.
+    pub reference_fall: Fall,
+}
+
+/// The largest fall of luminance from a grey to the next brighter one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Fall {
+    /// By how much, in the unit of [`Maps::luminance`](crate::Maps::luminance); 0 if luminance never falls.
+    pub luminance: f64,
+    /// The brighter grey of the two, in stops about mid grey; none if luminance never falls.
+    pub stops: Option<f64>,
+}
+
+/// Scene-linear greys, darkest first.
+pub(super) fn greys(law: &Law) -> impl Iterator<Item = [f64; 3]> {
+    /// So that a step that divides the range reaches its end in spite of rounding.
+    const SLACK: f64 = 1e-9;
+    let last = ((law.stops[1] - law.stops[0]) / law.neutral_step + SLACK) as usize;
+    let law = law.clone();
+    (0..=last).map(move |index| [grey(stops_of(&law, index)); 3])
+}
+
+pub(super) fn measure(
+    law: &Law,
+    greys: &Compared<'_>,
+    difference: &(impl Fn(&[f64; 3], &[f64; 3]) -> f64 + Sync),
+    luminance: &impl Fn(&[f64; 3]) -> f64,
+) -> Result<NeutralAxis, Error> {
+    let differences = greys.differences(difference);
+    let found = Deviation::of(greys.places, differences.clone())?;
+    let worst = differences.iter().position(|&d| d >= found.max).unwrap_or(0);
+    Ok(NeutralAxis {
+        count: found.count,
+        step: law.neutral_step,
+        mean: found.mean,
+        max: found.max,
+        worst_stops: stops_of(law, worst),
+        fall: fall(law, greys.candidate, luminance, "luminance of the candidate on the neutral axis")?,
+        reference_fall: fall(law, greys.reference, luminance, "luminance of the reference on the neutral axis")?,
+    })
+}
+
+fn fall(
+    law: &Law,
+    values: &[[f64; 3]],
+    luminance: &impl Fn(&[f64; 3]) -> f64,
+    what: &'static str,
+) -> Result<Fall, Error> {
+    let luminances: Vec<f64> = values.iter().map(luminance).collect();
+    if let Some(&found) = luminances.iter().find(|l| !l.is_finite()) {
+        return Err(Kind::Parameter { what, found, expected: "a finite number" }.into());
+    }
+    let mut largest = Fall::default();
+    for (index, pair) in luminances.windows(2).enumerate() {
+        let fall = pair[0] - pair[1];
+        if fall > largest.luminance {
+            largest = Fall { luminance: fall, stops: Some(stops_of(law, index + 1)) };
+        }
+    }
+    Ok(largest)
+}
+
+fn stops_of(law: &Law, index: usize) -> f64 {
+    law.stops[0] + index as f64 * law.neutral_step
+}

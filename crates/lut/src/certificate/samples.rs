@@ -1,0 +1,183 @@
+use std::fmt;
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use super::colour_set::ColourSet;
+use super::law::{Law, Search};
+use super::{colour_set, folds, hue_steps, neutral_axis};
+use crate::deviation::Deviation;
+use crate::error::Error;
+use crate::scene_sampler::SceneSampler;
+
+/// All colours of a [`Law`] with the reference's values there: made once, then held against any number of
+/// candidates by [`certify`](crate::certify()).
+#[derive(Clone)]
+pub struct Samples {
+    law: Law,
+    sets: Vec<ColourSet>,
+    /// Scene-linear; one list for all parts, so that threads share it evenly.
+    places: Vec<[f64; 3]>,
+    /// Display-linear.
+    reference: Vec<[f64; 3]>,
+    parts: Parts,
+}
+
+/// Which part of the list is what.
+#[derive(Clone, Debug)]
+struct Parts {
+    drawn: Range<usize>,
+    greys: Range<usize>,
+    named: Range<usize>,
+    circles: Range<usize>,
+    stencils: Range<usize>,
+}
+
+/// Two maps on one part of the list.
+pub(super) struct Compared<'a> {
+    pub(super) places: &'a [[f64; 3]],
+    pub(super) reference: &'a [[f64; 3]],
+    pub(super) candidate: &'a [[f64; 3]],
+}
+
+impl Samples {
+    /// Evaluates the reference, scene-linear RGB to display-linear RGB, at every colour of a law and of the
+    /// caller's own sets, on all threads.
+    ///
+    /// `progress` is called from any thread with the number of colours done so far, in no certain order; there
+    /// are [`Samples::evaluations`] of [`Search::SamplesOnly`], about twice the law's count where that is 2^14.
+    ///
+    /// # Errors
+    ///
+    /// If a field of the law is out of bounds; the error names it.
+    pub fn new(
+        law: &Law,
+        sets: &[ColourSet],
+        reference: impl Fn([f64; 3]) -> [f64; 3] + Sync,
+        progress: impl Fn(usize) + Sync,
+    ) -> Result<Self, Error> {
+        law.check()?;
+        let sampler = SceneSampler::with_seed(law.stops[0]..=law.stops[1], law.seed)?;
+        let mut places: Vec<[f64; 3]> = sampler.clone().take(law.count).collect();
+        let drawn = 0..places.len();
+        places.extend(neutral_axis::greys(law));
+        let greys = drawn.end..places.len();
+        places.extend(sets.iter().flat_map(colour_set::exposed));
+        let named = greys.end..places.len();
+        places.extend(hue_steps::circles());
+        let circles = named.end..places.len();
+        let centres = neutral_axis::greys(law).chain(sampler.take(law.fold_places));
+        places.extend(centres.flat_map(folds::stencil));
+        let stencils = circles.end..places.len();
+
+        let done = AtomicUsize::new(0);
+        let reference = values(&places, &reference, &|more| progress(done.fetch_add(more, Ordering::Relaxed) + more));
+        let parts = Parts { drawn, greys, named, circles, stencils };
+        Ok(Self { law: law.clone(), sets: sets.to_vec(), places, reference, parts })
+    }
+
+    /// The law that the colours follow.
+    #[must_use]
+    pub fn law(&self) -> &Law {
+        &self.law
+    }
+
+    /// The most evaluations of a candidate that [`certify`](crate::certify()) makes; ascents may end earlier.
+    #[must_use]
+    pub fn evaluations(&self, search: Search) -> usize {
+        match search {
+            Search::SamplesOnly => self.places.len(),
+            Search::Ascent => self.places.len() + self.law.ascents.min(self.law.count) * self.law.ascent_steps,
+        }
+    }
+
+    /// How far a candidate lies from the reference over the drawn colours alone: the cheapest figure, and the
+    /// same as [`Certificate::overall`](crate::Certificate::overall).
+    ///
+    /// # Errors
+    ///
+    /// If a difference is not finite; the error names the first such colour.
+    pub fn deviation(
+        &self,
+        candidate: impl Fn([f64; 3]) -> [f64; 3] + Sync,
+        difference: impl Fn(&[f64; 3], &[f64; 3]) -> f64 + Sync,
+    ) -> Result<Deviation, Error> {
+        let places = &self.places[self.parts.drawn.clone()];
+        let candidate = values(places, &candidate, &|_| {});
+        let compared = Compared { places, reference: &self.reference[self.parts.drawn.clone()], candidate: &candidate };
+        Deviation::of(places, compared.differences(&difference))
+    }
+
+    pub(super) fn evaluate(
+        &self,
+        candidate: &(impl Fn([f64; 3]) -> [f64; 3] + Sync),
+        count_more: &(impl Fn(usize) + Sync),
+    ) -> Vec<[f64; 3]> {
+        values(&self.places, candidate, count_more)
+    }
+
+    pub(super) fn sets(&self) -> &[ColourSet] {
+        &self.sets
+    }
+
+    pub(super) fn drawn<'a>(&'a self, candidate: &'a [[f64; 3]]) -> Compared<'a> {
+        self.part(&self.parts.drawn, candidate)
+    }
+
+    pub(super) fn greys<'a>(&'a self, candidate: &'a [[f64; 3]]) -> Compared<'a> {
+        self.part(&self.parts.greys, candidate)
+    }
+
+    pub(super) fn named<'a>(&'a self, candidate: &'a [[f64; 3]]) -> Compared<'a> {
+        self.part(&self.parts.named, candidate)
+    }
+
+    pub(super) fn circles<'a>(&'a self, candidate: &'a [[f64; 3]]) -> Compared<'a> {
+        self.part(&self.parts.circles, candidate)
+    }
+
+    pub(super) fn stencils<'a>(&'a self, candidate: &'a [[f64; 3]]) -> Compared<'a> {
+        self.part(&self.parts.stencils, candidate)
+    }
+
+    /// `candidate` has as many entries as `places`: it comes from [`Samples::evaluate`].
+    fn part<'a>(&'a self, range: &Range<usize>, candidate: &'a [[f64; 3]]) -> Compared<'a> {
+        Compared {
+            places: &self.places[range.clone()],
+            reference: &self.reference[range.clone()],
+            candidate: &candidate[range.clone()],
+        }
+    }
+}
+
+/// Without the tens of thousands of colours.
+impl fmt::Debug for Samples {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Samples").field("law", &self.law).field("parts", &self.parts).finish_non_exhaustive()
+    }
+}
+
+impl Compared<'_> {
+    /// In the order of the places, whatever the threads.
+    pub(super) fn differences(&self, difference: &(impl Fn(&[f64; 3], &[f64; 3]) -> f64 + Sync)) -> Vec<f64> {
+        self.reference.par_iter().zip(self.candidate).map(|(a, b)| difference(a, b)).collect()
+    }
+}
+
+fn values(
+    places: &[[f64; 3]],
+    map: &(impl Fn([f64; 3]) -> [f64; 3] + Sync),
+    count_more: &(impl Fn(usize) + Sync),
+) -> Vec<[f64; 3]> {
+    /// Large beside the cost of telling progress, small beside the whole.
+    const CHUNK: usize = 256;
+    let mut values = vec![[0.0; 3]; places.len()];
+    values.par_chunks_mut(CHUNK).zip(places.par_chunks(CHUNK)).for_each(|(values, places)| {
+        for (value, &place) in values.iter_mut().zip(places) {
+            *value = map(place);
+        }
+        count_more(places.len());
+    });
+    values
+}

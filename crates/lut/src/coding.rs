@@ -1,0 +1,122 @@
+use crate::error::{Error, Kind};
+
+/// The transfer curve of an output as two numbers: a power with a straight foot, odd about 0.
+///
+/// `encode(v) = (1 + offset) v^(1 / exponent) - offset` above the point where a line through the origin touches it, and that
+/// line below: the "moncurve" of the Common LUT Format \[S2014-006\]. sRGB is (2.4, 0.055), a pure power has offset 0, and
+/// linear light is (1, 0).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PowerCoding {
+    exponent: f64,
+    offset: f64,
+    /// Slope of the line, and where it ends in linear light.
+    slope: f64,
+    end: f64,
+}
+
+impl PowerCoding {
+    /// No coding at all.
+    pub const LINEAR: Self = Self { exponent: 1.0, offset: 0.0, slope: 1.0, end: 0.0 };
+
+    /// A curve from its exponent and offset.
+    ///
+    /// # Errors
+    /// If the exponent is outside 1 to 10, or the offset outside 0 to 0.9; an exponent of 1 needs an offset of 0.
+    pub fn new(exponent: f64, offset: f64) -> Result<Self, Error> {
+        let refuse = |what, found, expected| Err(Kind::Parameter { what, found, expected }.into());
+        if !(1.0..=10.0).contains(&exponent) {
+            return refuse("exponent of a coding", exponent, "a number from 1 to 10");
+        }
+        if !(0.0..=0.9).contains(&offset) {
+            return refuse("offset of a coding", offset, "a number from 0 to 0.9");
+        }
+        if offset == 0.0 {
+            return Ok(Self { exponent, offset, ..Self::LINEAR });
+        }
+        if exponent == 1.0 {
+            return refuse("offset of a coding with exponent 1", offset, "0");
+        }
+        // The line through the origin that touches the power.
+        let coded_end = offset / (exponent - 1.0);
+        let end = ((coded_end + offset) / (1.0 + offset)).powf(exponent);
+        Ok(Self { exponent, offset, slope: coded_end / end, end })
+    }
+
+    /// The exponent, such as 2.4.
+    pub fn exponent(&self) -> f64 {
+        self.exponent
+    }
+
+    /// The offset, such as 0.055.
+    pub fn offset(&self) -> f64 {
+        self.offset
+    }
+
+    /// Linear to coded.
+    pub fn encode(&self, linear: f64) -> f64 {
+        let v = linear.abs();
+        let coded = if v <= self.end {
+            self.slope * v
+        } else {
+            (1.0 + self.offset) * v.powf(1.0 / self.exponent) - self.offset
+        };
+        coded.copysign(linear)
+    }
+
+    /// Coded to linear.
+    pub fn decode(&self, coded: f64) -> f64 {
+        let v = coded.abs();
+        let linear = if v <= self.slope * self.end {
+            v / self.slope
+        } else {
+            ((v + self.offset) / (1.0 + self.offset)).powf(self.exponent)
+        };
+        linear.copysign(coded)
+    }
+
+    /// [`PowerCoding::encode`] for pixel loops.
+    #[inline]
+    pub fn encode_f32(&self, linear: f32) -> f32 {
+        if self.exponent == 1.0 {
+            return linear;
+        }
+        let v = linear.abs();
+        let coded = if v <= self.end as f32 {
+            self.slope as f32 * v
+        } else {
+            (1.0 + self.offset) as f32 * v.powf((1.0 / self.exponent) as f32) - self.offset as f32
+        };
+        coded.copysign(linear)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn srgb_is_the_published_curve() {
+        // The standard rounds slope and end: 12.92 and 0.0031308.
+        let srgb = PowerCoding::new(2.4, 0.055).unwrap();
+        assert_relative_eq!(srgb.slope, 12.92, epsilon = 4e-3);
+        assert_relative_eq!(srgb.end, 0.003_130_8, epsilon = 1e-4);
+        assert_relative_eq!(srgb.encode(0.18), 0.461_356_129_5, epsilon = 1e-9);
+        assert_relative_eq!(srgb.encode(1.0), 1.0, epsilon = 1e-12);
+    }
+
+    #[test]
+    fn decode_undoes_encode_and_f32_follows() {
+        for (exponent, offset) in [(1.0, 0.0), (2.4, 0.0), (2.4, 0.055), (2.6, 0.1)] {
+            let coding = PowerCoding::new(exponent, offset).unwrap();
+            for i in -2000..=2000 {
+                let v = f64::from(i) / 1000.0;
+                assert_relative_eq!(coding.decode(coding.encode(v)), v, epsilon = 1e-12);
+                assert_relative_eq!(f64::from(coding.encode_f32(v as f32)), coding.encode(v), epsilon = 1e-6);
+            }
+        }
+        assert!(PowerCoding::new(0.5, 0.0).is_err());
+        assert!(PowerCoding::new(2.4, -0.1).is_err());
+        assert!(PowerCoding::new(1.0, 0.1).is_err());
+    }
+}

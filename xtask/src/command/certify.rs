@@ -1,0 +1,137 @@
+use std::fmt::Write as _;
+
+use anyhow::Result;
+use clap::Args;
+use onelight::lut::{Certificate, Law, Search, Storage};
+use onelight::{Aim, Entries, Process, TableCoding, Word, WorkingSpace};
+use serde_json::{Value, json};
+
+use crate::certificate::{Measure, in_words, to_six_stops};
+use crate::compiled::{Compiled, Form, Recipe, ShaperChoice};
+use crate::look::LookArguments;
+use crate::progress::{Clock, bar};
+use crate::{Report, buffers};
+
+/// Colours of a thorough certificate, and of a short one.
+const COLOURS: usize = 1 << 18;
+/// The films of the talk and their likes.
+const CAMERAS: [&str; 5] =
+    ["kodak-5207", "kodak-ektachrome-100", "kodak-kodachrome-64", "fuji-velvia-50", "fuji-provia-100f"];
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    look: LookArguments,
+    /// Certify the five films of the README, both aims, all forms; the look's other options apply
+    #[arg(long, conflicts_with_all = ["camera", "print", "aim"])]
+    all: bool,
+    /// Say instead what low-precision frame buffers in front of the film cost
+    #[arg(long)]
+    buffers: bool,
+    /// Colours drawn for each certificate
+    #[arg(long, default_value_t = COLOURS, value_name = "N", value_parser = colours)]
+    colours: usize,
+    /// Print the result as one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+fn colours(text: &str) -> Result<usize, String> {
+    let allowed = 1 << 8..=1 << 20;
+    text.parse().ok().filter(|n| allowed.contains(n)).ok_or_else(|| "expected a number from 256 to 1048576".to_owned())
+}
+
+/// The forms that are compared: name, recipe.
+fn forms() -> Vec<(&'static str, Recipe)> {
+    let plain = Recipe { storage: Storage::F16, entries: Entries::Fitted, ..Recipe::usual(Form::Plain) };
+    let structured = Recipe { storage: Storage::F16, ..Recipe::usual(Form::Structured) };
+    vec![
+        ("the talk's 32^3", Recipe { size: 32, shaper: ShaperChoice::Gotanda, entries: Entries::Sampled, ..plain }),
+        ("plain 33^3, f16", plain),
+        ("plain 33^3 to +6, f16", Recipe { stops: Some(6.0), ..plain }),
+        ("structured 16^3, f16", Recipe { size: 16, ..structured }),
+        ("structured 32^3, f16", structured),
+        ("structured 32^3, f32", Recipe { storage: Storage::F32, ..structured }),
+        ("structured 32^3, 10 bit", Recipe { storage: Storage::Unorm10, coding: TableCoding::Display, ..structured }),
+    ]
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
+    if arguments.buffers {
+        return buffer_steps(arguments);
+    }
+    let mut clock = Clock::default();
+    let processes = processes(arguments)?;
+    let law = Law { count: arguments.colours, ..Law::default() };
+    let progress = bar("certifying", (processes.len() * forms().len()) as u64);
+    let mut text = format!(
+        "CIEDE2000 from the exact film, {} sRGB colours from -10 to +10 stops, any saturation; max after following the worst\n\
+         {:46} {:24} {:>6} {:>6} {:>6} {:>7}  {:>16}\n",
+        arguments.colours, "process", "form", "mean", "worst*", "p99", "max", "to +6: mean, max"
+    );
+    let mut rows = Vec::new();
+    let mut last = String::new();
+    for process in &processes {
+        let film = clock.time("compile", || process.compile())?;
+        let measure = Measure::new(&film, process)?;
+        let samples = clock.time("film", || measure.samples(&law, WorkingSpace::Srgb))?;
+        for (form, recipe) in forms() {
+            let compiled = clock.time("bake", || Compiled::new(&film, process, &recipe, None))?;
+            let found =
+                clock.time("certify", || measure.certify(&samples, |rgb| compiled.apply(rgb), Search::Ascent))?;
+            let name = format!("{}, {} aim", process.name(), process.aim.word());
+            row(&mut text, &name, form, &found);
+            last = format!("\n{name}, {form}\n{}", in_words(&found, "sRGB"));
+            rows.push(
+                json!({ "process": process, "form": form, "description": compiled.describe(), "certificate": found }),
+            );
+            progress.inc(1);
+        }
+    }
+    progress.finish_and_clear();
+    text.push_str("* the worst of the five bands of four stops\n");
+    if processes.len() == 1 {
+        text.push_str(&last);
+    }
+    let _ = writeln!(text, "time: {}", clock.sentence());
+    Ok(Report { text, json: Value::from(rows), as_json: arguments.json })
+}
+
+fn buffer_steps(arguments: &Arguments) -> Result<Report> {
+    let film = arguments.look.process()?.compile()?;
+    let mut text =
+        "largest step (CIEDE2000) on a grey ramp from -8 to +4 stops, through the buffer and the film\n".to_owned();
+    let mut json = serde_json::Map::new();
+    for case in &buffers::CASES {
+        let step = buffers::largest_step(case, &film)?;
+        let _ = writeln!(text, "  {:30} {step:.2}", case.name);
+        json.insert(case.name.to_owned(), step.into());
+    }
+    Ok(Report { text, json: Value::from(json), as_json: arguments.json })
+}
+
+fn processes(arguments: &Arguments) -> Result<Vec<Process>> {
+    if !arguments.all {
+        return Ok(vec![arguments.look.process()?]);
+    }
+    let base = arguments.look.process()?;
+    let mut all = Vec::new();
+    for camera in CAMERAS {
+        let usual = Process::for_camera(camera)?;
+        for aim in [Aim::Neutral, Aim::Sheet] {
+            all.push(Process { camera: usual.camera.clone(), print: usual.print.clone(), aim, ..base.clone() });
+        }
+    }
+    Ok(all)
+}
+
+fn row(text: &mut String, process: &str, form: &str, found: &Certificate) {
+    let (mean6, max6) = to_six_stops(found);
+    let d = &found.overall;
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "{process:46} {form:24} {:>6.3} {:>6.3} {:>6.3} {:>7.3}  {mean6:>8.3}, {max6:.3}",
+        d.mean, found.headline_mean, d.p99, found.max_found
+    );
+}

@@ -1,0 +1,291 @@
+//! A look in a form that is fast to apply: what `bake` writes and `develop --form` uses.
+
+mod choose;
+mod coordinate;
+mod shaper_fit;
+
+use anyhow::Result;
+use clap::ValueEnum;
+use onelight::lut::{
+    FitSample, FitSettings, Interpolation, Lut3d, PlainLut, SceneSampler, Shaper, Storage, StructuredLut, bake, fit,
+};
+use onelight::spectra::SceneCurve;
+use onelight::{Entries, Process, Reference, StructuredSettings, TableCoding};
+use rayon::prelude::*;
+
+pub(crate) use choose::smallest_under;
+pub(crate) use coordinate::Coordinate;
+pub(crate) use shaper_fit::{Fitted, fitted_to};
+
+use crate::progress::bar;
+
+/// The forms a look can be baked to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Form {
+    /// A log2 shaper and one table: every program reads it; the scene's range is limited
+    Plain,
+    /// The film's own curves as axes of the table: any range, several times as accurate
+    Structured,
+}
+
+/// The shapers of the plain form.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ShaperChoice {
+    /// log2 with offset and range fitted to the look
+    Log2,
+    /// The talk's: log2(u + 0.191406), 0 to 4
+    Gotanda,
+    /// The table takes ACEScct (AP1 primaries) instead of scene light
+    Acescct,
+    /// It takes ARRI LogC4 (ARRI Wide Gamut 4)
+    Logc4,
+    /// It takes Sony S-Log3 (S-Gamut3.Cine)
+    Slog3,
+    /// It takes DaVinci Intermediate (DaVinci Wide Gamut)
+    Intermediate,
+    /// It takes PQ (BT.2020), scene 1.0 at 100 cd/m^2
+    Pq,
+    /// It takes sRGB-coded colour: nothing brighter than white
+    Srgb,
+    /// It takes log2(x / 0.18) from -11 to +12: Bevy's tone-mapping tables, with linear output
+    Bevy,
+}
+
+impl ShaperChoice {
+    /// The coding that a table takes instead of scene-linear light.
+    fn coordinate(self, process: &Process) -> Result<Option<Coordinate>> {
+        let curve = match self {
+            Self::Log2 | Self::Gotanda => return Ok(None),
+            Self::Bevy => return Coordinate::bevy(process).map(Some),
+            Self::Acescct => SceneCurve::AcesCct,
+            Self::Logc4 => SceneCurve::LogC4,
+            Self::Slog3 => SceneCurve::SLog3,
+            Self::Intermediate => SceneCurve::DaVinciIntermediate,
+            Self::Pq => SceneCurve::Pq,
+            Self::Srgb => SceneCurve::Srgb,
+        };
+        Coordinate::of_curve(curve, process).map(Some)
+    }
+}
+
+/// How table entries are stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum StorageChoice {
+    /// 32-bit float
+    F32,
+    /// 16-bit float
+    F16,
+    /// 16-bit integers over the range of the entries
+    Unorm16,
+    /// 10-bit integers
+    Unorm10,
+    /// 8-bit integers
+    Unorm8,
+}
+
+impl From<StorageChoice> for Storage {
+    fn from(choice: StorageChoice) -> Self {
+        match choice {
+            StorageChoice::F32 => Self::F32,
+            StorageChoice::F16 => Self::F16,
+            StorageChoice::Unorm16 => Self::Unorm16,
+            StorageChoice::Unorm10 => Self::Unorm10,
+            StorageChoice::Unorm8 => Self::Unorm8,
+        }
+    }
+}
+
+/// What the entries of a structured table are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CodingChoice {
+    /// Densities: the most accurate in 16 bits and more
+    Density,
+    /// Display-coded colours: better in 10 bits and fewer
+    Display,
+}
+
+impl From<CodingChoice> for TableCoding {
+    fn from(choice: CodingChoice) -> Self {
+        match choice {
+            CodingChoice::Density => Self::Density,
+            CodingChoice::Display => Self::Display,
+        }
+    }
+}
+
+/// Where the entries come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum EntriesChoice {
+    /// The film's result at each node
+    Sampled,
+    /// Moved so that what is read between nodes comes nearest to the film
+    Fitted,
+}
+
+impl From<EntriesChoice> for Entries {
+    fn from(choice: EntriesChoice) -> Self {
+        match choice {
+            EntriesChoice::Sampled => Self::Sampled,
+            EntriesChoice::Fitted => Self::Fitted,
+        }
+    }
+}
+
+/// Everything that decides what a look is baked to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Recipe {
+    pub(crate) form: Form,
+    pub(crate) size: usize,
+    pub(crate) shaper: ShaperChoice,
+    /// Where the range of a plain table ends, in stops about mid grey; `None` fits it.
+    pub(crate) stops: Option<f64>,
+    pub(crate) entries: Entries,
+    pub(crate) storage: Storage,
+    pub(crate) coding: TableCoding,
+}
+
+impl Recipe {
+    /// The usual recipe of a form.
+    pub(crate) fn usual(form: Form) -> Self {
+        let (size, entries) = match form {
+            Form::Plain => (33, Entries::Sampled),
+            Form::Structured => (32, Entries::Fitted),
+        };
+        let (storage, coding) = (Storage::F32, TableCoding::Density);
+        Self { form, size, shaper: ShaperChoice::Log2, stops: None, entries, storage, coding }
+    }
+}
+
+/// NaN and infinities as the film takes them.
+fn finite(v: f32) -> f64 {
+    let limit = onelight::SCENE_MAX;
+    if v.is_nan() { 0.0 } else { f64::from(v).clamp(-limit, limit) }
+}
+
+/// Colours for each node that a plain table is fitted to.
+const FIT_SAMPLES_PER_NODE: usize = 4;
+
+/// A plain table moved towards the film between its nodes, over the range of its shaper.
+fn fitted_plain(film: &Reference, shaper: &Shaper, table: &Lut3d) -> Result<Lut3d> {
+    let stops = (shaper.max() / SceneSampler::MID_GREY).log2();
+    let count = FIT_SAMPLES_PER_NODE * table.entries().len();
+    let colours: Vec<[f64; 3]> = SceneSampler::new(-10.0f64.min(stops)..=stops)?.take(count).collect();
+    let samples: Vec<FitSample> = colours
+        .par_iter()
+        .map(|&rgb| FitSample {
+            coordinates: rgb.map(|v| shaper.encode(v) as f32),
+            target: film.develop(rgb).map(|v| v as f32),
+        })
+        .collect();
+    let difference = film.difference()?;
+    let linear = |coded: [f32; 3]| coded.map(|v| film.coding().decode(f64::from(v)));
+    let miss = |i: usize, value: [f32; 3]| difference.between(linear(samples[i].target), linear(value));
+    Ok(fit(table, Interpolation::Tetrahedral, &samples, miss, FitSettings::default())?)
+}
+
+/// A baked look. Entries are those that were stored: what is measured is what is written.
+pub(crate) enum Compiled {
+    /// Scene-linear light in.
+    Plain(PlainLut),
+    /// Plain too, but the light is coded before it comes.
+    Coded { table: Lut3d, coordinate: Box<Coordinate> },
+    /// Scene-linear light in.
+    Structured(Box<StructuredLut>),
+}
+
+impl Compiled {
+    /// Bakes a look; `scene` holds colours that a plain table's range is fitted to instead of the usual ones.
+    pub(crate) fn new(
+        film: &Reference,
+        process: &Process,
+        recipe: &Recipe,
+        scene: Option<&[[f64; 3]]>,
+    ) -> Result<Self> {
+        match recipe.form {
+            Form::Plain => {
+                if let Some(coordinate) = recipe.shaper.coordinate(process)? {
+                    let table = recipe.storage.stored(&coordinate.bake(film, recipe.size)?)?;
+                    return Ok(Self::Coded { table, coordinate: Box::new(coordinate) });
+                }
+                let shaper = match (recipe.shaper, scene) {
+                    (ShaperChoice::Gotanda, _) => Shaper::gotanda(),
+                    (_, Some(colours)) => fitted_to(film, &Fitted::Scene(colours))?,
+                    (_, None) => fitted_to(film, &Fitted::Look { stops: recipe.stops })?,
+                };
+                let progress = bar("baking", recipe.size.pow(3) as u64);
+                let table =
+                    bake(recipe.size, &shaper, |rgb| film.develop(rgb), |done| progress.set_position(done as u64))?;
+                progress.finish_and_clear();
+                let table = match recipe.entries {
+                    Entries::Sampled => table,
+                    Entries::Fitted => fitted_plain(film, &shaper, &table)?,
+                };
+                let table = recipe.storage.stored(&table)?;
+                Ok(Self::Plain(PlainLut::new(shaper, table, Interpolation::Tetrahedral)))
+            }
+            Form::Structured => {
+                let settings = StructuredSettings {
+                    size: recipe.size,
+                    interpolation: Interpolation::Tetrahedral,
+                    entries: recipe.entries,
+                    coding: recipe.coding,
+                };
+                let lut = film.structured(&settings)?;
+                let table = recipe.storage.stored(&lut.parts().table)?;
+                Ok(Self::Structured(Box::new(lut.with_table(table))))
+            }
+        }
+    }
+
+    /// Scene-linear RGB of the look's input space to display-coded RGB.
+    pub(crate) fn apply(&self, linear: [f32; 3]) -> [f32; 3] {
+        match self {
+            Self::Plain(lut) => lut.apply(linear),
+            Self::Coded { table, coordinate } => {
+                let coordinates = coordinate.encode(linear.map(finite));
+                table.apply(coordinates.map(|v| v as f32), Interpolation::Tetrahedral)
+            }
+            Self::Structured(lut) => lut.apply(linear),
+        }
+    }
+
+    /// [`Compiled::apply`] to every pixel in place, on all threads.
+    pub(crate) fn apply_to_slice(&self, pixels: &mut [[f32; 3]]) {
+        match self {
+            Self::Plain(lut) => lut.apply_to_slice(pixels),
+            Self::Coded { .. } => pixels.par_iter_mut().for_each(|rgb| *rgb = self.apply(*rgb)),
+            Self::Structured(lut) => lut.apply_to_slice(pixels),
+        }
+    }
+
+    /// The brightest scene value that the form tells from brighter ones.
+    pub(crate) fn max(&self) -> Option<f64> {
+        match self {
+            Self::Plain(lut) => Some(lut.shaper().max()),
+            Self::Coded { coordinate, .. } => Some(coordinate.max()),
+            Self::Structured(_) => None,
+        }
+    }
+
+    /// Nodes along each side, and how scene light gets there.
+    pub(crate) fn describe(&self) -> String {
+        match self {
+            Self::Plain(lut) => {
+                let (size, max) = (lut.table().size(), lut.shaper().max());
+                let onelight::lut::ShaperKind::Log2Offset { offset, .. } = lut.shaper().kind() else {
+                    return format!("plain {size}^3");
+                };
+                let stops = (max / SceneSampler::MID_GREY).log2();
+                format!("plain {size}^3, log2(u + {offset:.5}), scene light 0 to {max:.2} ({stops:+.1} stops)")
+            }
+            Self::Coded { table, coordinate } => {
+                format!("plain {}^3, takes {}, scene light to {:.2}", table.size(), coordinate.name, coordinate.max())
+            }
+            Self::Structured(lut) => {
+                let stages = if lut.parts().mix.is_some() { "camera and print curves" } else { "camera curves" };
+                format!("structured {}^3, {stages}, any scene light", lut.parts().table.size())
+            }
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! A baked look as the files that programs load.
+
+use anyhow::{Result, bail};
+use clap::ValueEnum;
+use onelight::Process;
+use onelight::lut::{
+    ClfProcess, CubeFile, Domain, Interpolation, Lut3d, PngDepth, Spi3dConfig, StripGreen, write_hald, write_ktx2,
+    write_spi3d, write_strip,
+};
+
+use crate::compiled::Compiled;
+use crate::whole::WholeSet;
+
+/// The file formats of a baked look.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// look.cube: Resolve's 1D + 3D form for scene light, 3D alone for coded colour
+    Cube,
+    /// look.clf: the Common LUT Format, plain or structured
+    Clf,
+    /// look.spi3d, with look_spi3d.ocio beside it for scene light
+    Spi3d,
+    /// look.ktx2: a 3D texture of 16-bit floats
+    Ktx2,
+    /// look_strip.png: 1024x32 (32 nodes) or 256x16, 16 bit, green downwards
+    Strip,
+    /// look_hald.png: a Hald CLUT, 16 bit
+    Hald,
+}
+
+impl Format {
+    /// Its name on the command line.
+    pub(crate) fn word(self) -> String {
+        self.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
+    }
+}
+
+/// What goes into the files.
+pub(crate) struct Export<'a> {
+    pub(crate) process: &'a Process,
+    pub(crate) compiled: &'a Compiled,
+    /// Name, input and output, certificate: lines for formats that hold comments.
+    pub(crate) comments: Vec<String>,
+}
+
+impl Export<'_> {
+    /// Adds the files of one format.
+    pub(crate) fn add(&self, format: Format, files: &mut WholeSet) -> Result<()> {
+        let mut bytes = Vec::new();
+        match format {
+            Format::Cube => {
+                let cube = match self.compiled {
+                    Compiled::Plain(lut) => CubeFile::from_plain(lut, CubeFile::SHAPER_POINTS)?,
+                    _ => CubeFile::from_3d(Domain::UNIT, self.table(format)?.clone()),
+                };
+                cube.with_title(&self.process.name()).with_comments(&self.comments).write(&mut bytes)?;
+                files.add("look.cube", bytes);
+            }
+            Format::Clf => {
+                let clf = match self.compiled {
+                    Compiled::Plain(lut) => ClfProcess::from_plain(lut)?,
+                    Compiled::Coded { table, .. } => ClfProcess::from_table(table, Interpolation::Tetrahedral),
+                    Compiled::Structured(lut) => ClfProcess::from_structured(lut)?,
+                };
+                clf.with_name(&self.process.name()).with_descriptions(&self.comments).write(&mut bytes)?;
+                files.add("look.clf", bytes);
+            }
+            Format::Spi3d => {
+                write_spi3d(&mut bytes, self.table(format)?)?;
+                files.add("look.spi3d", bytes);
+                if let Compiled::Plain(lut) = self.compiled {
+                    let mut config = Vec::new();
+                    let name = self.process.name();
+                    Spi3dConfig::new(lut, "look.spi3d")
+                        .with_look(&name)
+                        .with_comments(&self.comments)
+                        .write(&mut config)?;
+                    files.add("look_spi3d.ocio", config);
+                }
+            }
+            Format::Ktx2 => {
+                write_ktx2(&mut bytes, self.table(format)?, &self.comments)?;
+                files.add("look.ktx2", bytes);
+            }
+            Format::Strip => {
+                write_strip(&mut bytes, self.coded(format)?, PngDepth::Sixteen, StripGreen::Down, &self.comments)?;
+                files.add("look_strip.png", bytes);
+            }
+            Format::Hald => {
+                write_hald(&mut bytes, self.coded(format)?, PngDepth::Sixteen, &self.comments)?;
+                files.add("look_hald.png", bytes);
+            }
+        }
+        Ok(())
+    }
+
+    /// The table of a plain form.
+    fn table(&self, format: Format) -> Result<&Lut3d> {
+        match self.compiled {
+            Compiled::Plain(lut) => Ok(lut.table()),
+            Compiled::Coded { table, .. } => Ok(table),
+            Compiled::Structured(_) => {
+                bail!("--format {} cannot hold the structured form, expected clf, or --form plain", format.word())
+            }
+        }
+    }
+
+    /// The table of a form that takes coded colour: pictures hold no shaper.
+    fn coded(&self, format: Format) -> Result<&Lut3d> {
+        match self.compiled {
+            Compiled::Coded { table, .. } => Ok(table),
+            _ => bail!(
+                "--format {} holds no shaper for scene-linear light, expected a coding such as --shaper srgb",
+                format.word()
+            ),
+        }
+    }
+}

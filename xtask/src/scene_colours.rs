@@ -1,0 +1,52 @@
+//! Colours of the user's own pictures: what a look has to be good for.
+
+use std::path::PathBuf;
+
+use anyhow::{Result, bail};
+use onelight::Process;
+use onelight::spectra::nalgebra::Vector3;
+use onelight::spectra::{Chromaticity, RgbSpace};
+
+use crate::picture::{Limits, Picture, Source, read as read_picture};
+
+/// Colours taken from all pictures together, evenly spread over their pixels.
+const COLOURS: usize = 1 << 14;
+
+/// Scene-linear colours of pictures in the input space of a process; `None` without pictures.
+pub(crate) fn read(paths: &[PathBuf], process: &Process) -> Result<Option<Vec<[f64; 3]>>> {
+    if paths.is_empty() {
+        return Ok(None);
+    }
+    let mut colours = Vec::new();
+    for path in paths {
+        let picture = read_picture(path, &Limits::default())?;
+        if picture.source != Source::Exr {
+            bail!("{}: --scene takes scene-linear pictures, expected an EXR", path.display());
+        }
+        colours.extend(some_of(&picture, process, COLOURS.div_ceil(paths.len()))?);
+    }
+    if colours.is_empty() {
+        bail!("the pictures of --scene hold no finite colour, expected at least one");
+    }
+    Ok(Some(colours))
+}
+
+fn some_of(picture: &Picture, process: &Process, count: usize) -> Result<Vec<[f64; 3]>> {
+    let to_input = match &picture.primaries {
+        None => None,
+        Some(c) => {
+            let xy = |[x, y]: [f32; 2]| (f64::from(x), f64::from(y));
+            let white = Chromaticity::new(f64::from(c.white[0]), f64::from(c.white[1]));
+            let space = RgbSpace::new([xy(c.red), xy(c.green), xy(c.blue)], white);
+            Some(space.to_about(&process.input_space.space(), Chromaticity::black_body_6500_k())?)
+        }
+    };
+    let every = picture.rgb.len().div_ceil(count).max(1);
+    let finite = picture.rgb.iter().step_by(every).filter(|rgb| rgb.iter().all(|v| v.is_finite()));
+    Ok(finite
+        .map(|rgb| {
+            let rgb = rgb.map(f64::from);
+            to_input.map_or(rgb, |matrix| (matrix * Vector3::from(rgb)).data.0[0])
+        })
+        .collect())
+}

@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""Applies OpenColorIO to baked LUT files and compares it with our own output.
+
+The folder holds the files and probes.txt: a first line "# r g b FILE FILE ...", then one line per colour with the
+scene-linear input and our output for each FILE, three numbers each. A FILE may be a .clf, a .cube, or a .spi3d; beside
+the last lies NAME_spi3d.ocio, the configuration with its shaper, through which it is applied.
+
+Prints the largest difference per file. Exit status 1 if one is above the tolerance or not finite.
+Needs opencolorio 2 and numpy; without them it says "skipped", and fails only with --require.
+"""
+
+import argparse
+import pathlib
+import shutil
+import sys
+import tempfile
+
+
+def read_probes(path):
+    """Names of the files, inputs (n, 3) and outputs (n, 3) for each."""
+    with open(path, encoding="utf-8") as lines:
+        heading = lines.readline().split()
+    if heading[:4] != ["#", "r", "g", "b"] or len(heading) < 5:
+        sys.exit(f"{path}: first line: found {' '.join(heading)!r}, expected '# r g b FILE ...'")
+    names = heading[4:]
+    table = numpy.loadtxt(path, dtype=numpy.float32, ndmin=2)
+    if table.shape[1] != 3 + 3 * len(names):
+        sys.exit(f"{path}: found {table.shape[1]} numbers a line, expected {3 + 3 * len(names)}")
+    outputs = {name: table[:, 3 + 3 * i : 6 + 3 * i] for i, name in enumerate(names)}
+    return numpy.ascontiguousarray(table[:, :3]), outputs
+
+
+def processor(path):
+    """OpenColorIO's processor for one file."""
+    if path.suffix == ".spi3d":
+        configuration = path.with_name(f"{path.stem}_spi3d.ocio")
+        config = ocio.Config.CreateFromFile(str(configuration))
+        config.validate()
+        scene = config.getColorSpace(ocio.ROLE_SCENE_LINEAR).getName()
+        looks = [name for name in config.getColorSpaceNames() if name != scene]
+        if len(looks) != 1:
+            sys.exit(f"{configuration}: found colour spaces {looks}, expected one beside {scene!r}")
+        return config.getProcessor(scene, looks[0])
+    transform = ocio.FileTransform(str(path))
+    transform.setInterpolation(ocio.INTERP_TETRAHEDRAL)
+    return ocio.Config.CreateRaw().getProcessor(transform)
+
+
+def apply(path, inputs):
+    pixels = inputs.copy()
+    processor(path).getDefaultCPUProcessor().applyRGB(pixels)
+    return pixels
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path, help="folder with probes.txt and the files it names")
+    parser.add_argument("--tolerance", type=float, default=2e-4, help="largest difference allowed (default 2e-4)")
+    parser.add_argument("--require", action="store_true", help="fail where opencolorio or numpy is missing")
+    arguments = parser.parse_args()
+    if missing:
+        print(f"skipped: {missing} is not installed")
+        return 1 if arguments.require else 0
+
+    inputs, outputs = read_probes(arguments.folder / "probes.txt")
+    finite = numpy.isfinite(inputs).all(axis=1)
+    failed = False
+    # OpenColorIO keeps files it has read by their path: fresh names, so that no older file answers.
+    with tempfile.TemporaryDirectory() as fresh:
+        for name, ours in outputs.items():
+            for part in arguments.folder.glob(f"{pathlib.Path(name).stem}*"):
+                shutil.copy(part, fresh)
+            theirs = apply(pathlib.Path(fresh) / name, inputs)
+            difference = numpy.abs(theirs - ours)[finite].max(axis=1)
+            difference = numpy.where(numpy.isnan(difference), numpy.inf, difference)
+            worst = int(difference.argmax())
+            failed |= not difference[worst] <= arguments.tolerance
+            print(
+                f"{name}: largest difference {difference[worst]:.2e} over {finite.sum()} colours,"
+                f" at {' '.join(f'{v:g}' for v in inputs[finite][worst])}"
+            )
+    return 1 if failed else 0
+
+
+missing = None
+try:
+    import numpy
+    import PyOpenColorIO as ocio
+except ImportError as error:
+    missing = error.name or str(error)
+
+if __name__ == "__main__":
+    sys.exit(main())
