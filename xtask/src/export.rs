@@ -22,7 +22,7 @@ pub(crate) enum Format {
     Spi3d,
     /// look.ktx2: a 3D texture of 16-bit floats
     Ktx2,
-    /// look_strip.png: 1024x32 (32 nodes) or 256x16, 16 bit, green downwards
+    /// look_strip_unreal.png (green downwards) and look_strip_unity.png (upwards): 1024x32, or 256x16 with --size 16
     Strip,
     /// look_hald.png: a Hald CLUT, 16 bit
     Hald,
@@ -83,8 +83,13 @@ impl Export<'_> {
                 files.add("look.ktx2", bytes);
             }
             Format::Strip => {
-                write_strip(&mut bytes, self.coded(format)?, PngDepth::Sixteen, StripGreen::Down, &self.comments)?;
-                files.add("look_strip.png", bytes);
+                for (name, green) in
+                    [("look_strip_unreal.png", StripGreen::Down), ("look_strip_unity.png", StripGreen::Up)]
+                {
+                    let mut bytes = Vec::new();
+                    write_strip(&mut bytes, self.coded(format)?, PngDepth::Sixteen, green, &self.comments)?;
+                    files.add(name, bytes);
+                }
             }
             Format::Hald => {
                 write_hald(&mut bytes, self.coded(format)?, PngDepth::Sixteen, &self.comments)?;
