@@ -62,6 +62,17 @@ impl<'a> Measure<'a> {
         Ok(certify(samples, &maps, search, |_| {})?)
     }
 
+    /// The film's own tint: chroma C* of 18 % grey, and the largest of all greys with its exposure in stops about it.
+    pub(crate) fn tint(&self) -> (f64, f64, f64) {
+        let chroma = |stops: f64| {
+            let [_, a, b] = self.difference.lab(self.film.develop_linear([0.18 * stops.exp2(); 3]));
+            a.hypot(b)
+        };
+        let greys = (-80..=80).map(|i| f64::from(i) / 8.0).map(|stops| (chroma(stops), stops));
+        let (largest, stops) = greys.fold((0.0, 0.0), |most, grey| if grey.0 > most.0 { grey } else { most });
+        (chroma(0.0), largest, stops)
+    }
+
     fn to_input(&self, space: WorkingSpace) -> Result<Matrix3<f64>> {
         let white = Chromaticity::black_body_6500_k();
         Ok(space.space().to_about(&self.process.input_space.space(), white)?)

@@ -10,7 +10,8 @@ pub enum Aim {
     /// What the sheet says: the print's published aim densities, a reversal film's own exposure. Grey is then not perfectly
     /// grey (C* 1.4 on 2383) and about a stop darker than neutral.
     Sheet,
-    /// Exactly neutral, at an equivalent neutral density of 0.7: display-linear 0.1995.
+    /// An 18 % grey card is exactly neutral, at an equivalent neutral density of 0.7: display-linear 0.1995. Darker and
+    /// lighter greys keep the tint that the film gives them.
     #[default]
     Neutral,
 }

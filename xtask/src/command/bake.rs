@@ -166,6 +166,8 @@ struct Measured {
     srgb: Certificate,
     rec2020: Option<Certificate>,
     scene: Option<Deviation>,
+    /// Chroma of 18 % grey, the largest of all greys, and the exposure of that grey in stops.
+    tint: (f64, f64, f64),
 }
 
 impl Measured {
@@ -181,7 +183,7 @@ impl Measured {
             Compiled::Plain(_) | Compiled::Coded { .. } => None,
         };
         let scene = scene.map(|colours| on_scene(film, compiled, colours)).transpose()?;
-        Ok(Self { srgb: certify(WorkingSpace::Srgb)?, rec2020, scene })
+        Ok(Self { srgb: certify(WorkingSpace::Srgb)?, rec2020, scene, tint: measure.tint() })
     }
 
     fn text(&self) -> String {
@@ -190,6 +192,11 @@ impl Measured {
             let (mean, max) = (wide.overall.mean, wide.max_found);
             let _ = writeln!(text, "  the same for Rec.2020 colours: mean {mean:.3}, max {max:.3}");
         }
+        let (grey, largest, stops) = self.tint;
+        let _ = writeln!(
+            text,
+            "the film's own tint of greys: C* {grey:.1} at 18 %, at most {largest:.1} at {stops:+} stops"
+        );
         if let Some(d) = &self.scene {
             let _ = writeln!(
                 text,
@@ -256,6 +263,7 @@ fn json(
         "certificate": measured.srgb,
         "certificate_rec2020": measured.rec2020,
         "scene": measured.scene,
+        "tint": { "unit": "CIELAB C*", "mid_grey": measured.tint.0, "largest": measured.tint.1, "stops": measured.tint.2 },
         "limit": limit,
         "failures": measured.srgb.failures(limit),
     })
