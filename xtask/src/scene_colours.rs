@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use onelight::Process;
-use onelight::spectra::nalgebra::Vector3;
+use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Chromaticity, RgbSpace};
 
 use crate::picture::{Limits, Picture, Source, read as read_picture};
@@ -23,7 +23,8 @@ pub(crate) fn read(paths: &[PathBuf], process: &Process) -> Result<Option<Vec<[f
         if picture.source != Source::Exr {
             bail!("{}: --scene takes scene-linear pictures, expected an EXR", path.display());
         }
-        colours.extend(some_of(&picture, process, COLOURS.div_ceil(paths.len()))?);
+        let some = some_of(&picture, process, COLOURS.div_ceil(paths.len()));
+        colours.extend(some.with_context(|| path.display().to_string())?);
     }
     if colours.is_empty() {
         bail!("the pictures of --scene hold no finite colour, expected at least one");
@@ -31,16 +32,19 @@ pub(crate) fn read(paths: &[PathBuf], process: &Process) -> Result<Option<Vec<[f
     Ok(Some(colours))
 }
 
+/// From a picture's own primaries to those a process takes; `None` where the file names none. Its white is taken for the
+/// scene's white: primaries count, the white point does not.
+pub(crate) fn to_input_space(picture: &Picture, process: &Process) -> Result<Option<Matrix3<f64>>> {
+    let Some(c) = &picture.primaries else { return Ok(None) };
+    let xy = |[x, y]: [f32; 2]| (f64::from(x), f64::from(y));
+    let white = Chromaticity::new(f64::from(c.white[0]), f64::from(c.white[1]));
+    let space = RgbSpace::new([xy(c.red), xy(c.green), xy(c.blue)], white);
+    let matrix = space.to_about(&process.input_space.space(), Chromaticity::black_body_6500_k());
+    matrix.map(Some).context("its chromaticities")
+}
+
 fn some_of(picture: &Picture, process: &Process, count: usize) -> Result<Vec<[f64; 3]>> {
-    let to_input = match &picture.primaries {
-        None => None,
-        Some(c) => {
-            let xy = |[x, y]: [f32; 2]| (f64::from(x), f64::from(y));
-            let white = Chromaticity::new(f64::from(c.white[0]), f64::from(c.white[1]));
-            let space = RgbSpace::new([xy(c.red), xy(c.green), xy(c.blue)], white);
-            Some(space.to_about(&process.input_space.space(), Chromaticity::black_body_6500_k())?)
-        }
-    };
+    let to_input = to_input_space(picture, process)?;
     let every = picture.rgb.len().div_ceil(count).max(1);
     let finite = picture.rgb.iter().step_by(every).filter(|rgb| rgb.iter().all(|v| v.is_finite()));
     Ok(finite

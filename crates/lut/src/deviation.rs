@@ -54,8 +54,12 @@ pub fn deviation(
 }
 
 impl Deviation {
-    /// Sums up the differences at as many samples, given in the same order.
-    pub(crate) fn of(samples: &[[f64; 3]], mut differences: Vec<f64>) -> Result<Self, Error> {
+    /// Sums up differences that were measured elsewhere, one for each sample, in the same order.
+    ///
+    /// # Errors
+    ///
+    /// If there are no samples, or a difference is not finite; the error names the first such sample.
+    pub fn of(samples: &[[f64; 3]], mut differences: Vec<f64>) -> Result<Self, Error> {
         let mut sum = 0.0;
         let mut largest: Option<(f64, [f64; 3])> = None;
         for (index, (&found, &sample)) in differences.iter().zip(samples).enumerate() {

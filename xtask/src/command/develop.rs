@@ -3,8 +3,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
+use onelight::spectra::Chromaticity;
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
-use onelight::spectra::{Chromaticity, RgbSpace};
 use onelight::{Process, Reference, TransferCurve, Word};
 use rayon::prelude::*;
 use serde_json::json;
@@ -15,7 +15,7 @@ use crate::picture::{
     self, Bits, Chromaticities, Coding, ColourTag, Limits, Picture, Samples, Source, write_exr, write_png,
 };
 use crate::progress::{Clock, bar};
-use crate::{Report, folders};
+use crate::{Report, folders, scene_colours};
 
 /// A picture whose log average lies further from mid grey, in stops, is worth a word.
 const FAR_STOPS: f64 = 4.0;
@@ -153,17 +153,12 @@ fn to_input_space(
     arguments: &Arguments,
     notes: &mut Vec<String>,
 ) -> Result<Matrix3<f64>> {
-    let Some(c) = picture.primaries else { return Ok(Matrix3::identity()) };
-    if arguments.look.names_input_space() {
+    if picture.primaries.is_some() && arguments.look.names_input_space() {
         notes.push(format!("the file's own chromaticities give way to --input-space {}", process.input_space.word()));
         return Ok(Matrix3::identity());
     }
-    let xy = |[x, y]: [f32; 2]| (f64::from(x), f64::from(y));
-    let white = Chromaticity::new(f64::from(c.white[0]), f64::from(c.white[1]));
-    let space = RgbSpace::new([xy(c.red), xy(c.green), xy(c.blue)], white);
-    // The file's white is the scene's white: primaries count, its white point does not.
-    let matrix = space.to_about(&process.input_space.space(), Chromaticity::black_body_6500_k());
-    matrix.with_context(|| format!("{}: its chromaticities", arguments.input.display()))
+    let matrix = scene_colours::to_input_space(picture, process);
+    Ok(matrix.with_context(|| arguments.input.display().to_string())?.unwrap_or_else(Matrix3::identity))
 }
 
 /// Decodes, converts and exposes the picture; the exposure in stops.

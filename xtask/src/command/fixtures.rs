@@ -3,8 +3,9 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::Args;
+use onelight::lut::Deviation;
 use onelight::{Process, Reference};
-use onelight_lut::{Deviation, deviation};
+use rayon::prelude::*;
 use serde_json::json;
 
 use crate::picture::{Picture, Source, Windows, write_exr};
@@ -83,14 +84,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
 /// The picture of the true exposures against the picture of the RGB, at some pixels.
 fn cost_of_rgb(film: &Reference, scene: &Truth, pixels: &[usize]) -> Result<Deviation> {
     let difference = film.difference()?;
-    // A pixel's number stands in for a colour.
-    let numbers: Vec<[f64; 3]> = pixels.iter().map(|&i| [i as f64, 0.0, 0.0]).collect();
-    Ok(deviation(
-        &numbers,
-        |[i, _, _]| film.develop_exposure(layers(scene.exposure[i as usize])),
-        |[i, _, _]| film.develop_linear(scene.rgb[i as usize].map(f64::from)),
-        |a, b| difference.between(*a, *b),
-    )?)
+    let of = |&i: &usize| {
+        let (rgb, exposure) = (scene.rgb[i].map(f64::from), layers(scene.exposure[i]));
+        difference.between(film.develop_exposure(exposure), film.develop_linear(rgb))
+    };
+    let colours: Vec<[f64; 3]> = pixels.iter().map(|&i| scene.rgb[i].map(f64::from)).collect();
+    Ok(Deviation::of(&colours, pixels.par_iter().map(of).collect())?)
 }
 
 /// Rounded to half precision, which packs three times as small: plenty for a copy that tests compare with.
