@@ -7,7 +7,7 @@ use std::{error, fmt, io};
 pub struct Error(Box<Kind>);
 
 impl Error {
-    /// Whether reading or writing itself failed; [`source`](error::Error::source) has the cause.
+    /// Whether reading or writing itself failed; the message ends with the cause.
     pub fn is_io(&self) -> bool {
         matches!(*self.0, Kind::Io(_))
     }
@@ -93,7 +93,8 @@ impl From<io::Error> for Error {
 impl error::Error for Error {
     fn source(&self) -> Option<&(dyn error::Error + 'static)> {
         match &*self.0 {
-            Kind::Io(error) => Some(error),
+            // The message holds the cause already: said once, however the chain is printed.
+            Kind::Io(error) => error.source(),
             _ => None,
         }
     }
