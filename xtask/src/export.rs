@@ -4,8 +4,8 @@ use anyhow::{Result, bail};
 use clap::ValueEnum;
 use onelight::Process;
 use onelight::lut::{
-    ClfProcess, CubeFile, Domain, Interpolation, Lut3d, PngDepth, Spi3dConfig, StripGreen, write_hald, write_ktx2,
-    write_spi3d, write_strip,
+    ClfProcess, CubeFile, Domain, Interpolation, Lut3d, PngDepth, Spi3dConfig, Storage, StripGreen, read_hald,
+    read_spi3d, read_strip, write_hald, write_ktx2, write_spi3d, write_strip,
 };
 
 use crate::compiled::Compiled;
@@ -35,6 +35,9 @@ impl Format {
     }
 }
 
+/// A map from scene-linear RGB of the look's input space to display-coded RGB.
+pub(crate) type Applied<'a> = Box<dyn Fn([f32; 3]) -> [f32; 3] + Sync + 'a>;
+
 /// What goes into the files.
 pub(crate) struct Export<'a> {
     pub(crate) process: &'a Process,
@@ -46,7 +49,39 @@ pub(crate) struct Export<'a> {
 impl Export<'_> {
     /// Adds the files of one format.
     pub(crate) fn add(&self, format: Format, files: &mut WholeSet) -> Result<()> {
+        for (name, bytes) in self.files(format)? {
+            files.add(name, bytes);
+        }
+        Ok(())
+    }
+
+    /// What the files of a format make of scene-linear RGB, their numbers read back: that is what a certificate is for.
+    pub(crate) fn as_written(&self, format: Format) -> Result<Applied<'_>> {
+        let files = self.files(format)?;
+        let bytes = files.first().map_or(&[][..], |(_, bytes)| bytes);
+        let table = match format {
+            Format::Cube => {
+                let cube = CubeFile::read(bytes)?;
+                let apply = move |rgb| cube.apply(rgb, Interpolation::Tetrahedral);
+                return Ok(Box::new(move |rgb| apply(self.compiled.coordinates_for_file(rgb))));
+            }
+            Format::Clf => {
+                let clf = ClfProcess::read(bytes)?;
+                return Ok(Box::new(move |rgb| clf.apply(self.compiled.coordinates_for_file(rgb))));
+            }
+            Format::Spi3d => read_spi3d(bytes)?,
+            Format::Ktx2 => Storage::F16.stored(self.table(format)?)?,
+            Format::Strip => read_strip(bytes, StripGreen::Down)?,
+            Format::Hald => read_hald(bytes)?,
+        };
+        let compiled = self.compiled.with_table(table)?;
+        Ok(Box::new(move |rgb| compiled.apply(rgb)))
+    }
+
+    /// Names and contents of the files of one format.
+    fn files(&self, format: Format) -> Result<Vec<(&'static str, Vec<u8>)>> {
         let mut bytes = Vec::new();
+        let mut files = Vec::new();
         match format {
             Format::Cube => {
                 let cube = match self.compiled {
@@ -54,7 +89,7 @@ impl Export<'_> {
                     _ => CubeFile::from_3d(Domain::UNIT, self.table(format)?.clone()),
                 };
                 cube.with_title(&self.process.name()).with_comments(&self.comments).write(&mut bytes)?;
-                files.add("look.cube", bytes);
+                files.push(("look.cube", bytes));
             }
             Format::Clf => {
                 let clf = match self.compiled {
@@ -63,11 +98,11 @@ impl Export<'_> {
                     Compiled::Structured(lut) => ClfProcess::from_structured(lut)?,
                 };
                 clf.with_name(&self.process.name()).with_descriptions(&self.comments).write(&mut bytes)?;
-                files.add("look.clf", bytes);
+                files.push(("look.clf", bytes));
             }
             Format::Spi3d => {
                 write_spi3d(&mut bytes, self.table(format)?)?;
-                files.add("look.spi3d", bytes);
+                files.push(("look.spi3d", bytes));
                 if let Compiled::Plain(lut) = self.compiled {
                     let mut config = Vec::new();
                     let name = self.process.name();
@@ -75,12 +110,12 @@ impl Export<'_> {
                         .with_look(&name)
                         .with_comments(&self.comments)
                         .write(&mut config)?;
-                    files.add("look_spi3d.ocio", config);
+                    files.push(("look_spi3d.ocio", config));
                 }
             }
             Format::Ktx2 => {
                 write_ktx2(&mut bytes, self.table(format)?, &self.comments)?;
-                files.add("look.ktx2", bytes);
+                files.push(("look.ktx2", bytes));
             }
             Format::Strip => {
                 for (name, green) in
@@ -88,15 +123,15 @@ impl Export<'_> {
                 {
                     let mut bytes = Vec::new();
                     write_strip(&mut bytes, self.coded(format)?, PngDepth::Sixteen, green, &self.comments)?;
-                    files.add(name, bytes);
+                    files.push((name, bytes));
                 }
             }
             Format::Hald => {
                 write_hald(&mut bytes, self.coded(format)?, PngDepth::Sixteen, &self.comments)?;
-                files.add("look_hald.png", bytes);
+                files.push(("look_hald.png", bytes));
             }
         }
-        Ok(())
+        Ok(files)
     }
 
     /// The table of a plain form.

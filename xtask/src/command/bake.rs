@@ -11,7 +11,7 @@ use crate::certificate::{Measure, in_words, to_six_stops};
 use crate::compiled::{
     CodingChoice, Compiled, EntriesChoice, Form, Recipe, ShaperChoice, StorageChoice, smallest_under,
 };
-use crate::export::{Export, Format};
+use crate::export::{Applied, Export, Format};
 use crate::look::LookArguments;
 use crate::progress::Clock;
 use crate::whole::WholeSet;
@@ -75,7 +75,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let recipe = clock.time("choose", || recipe(arguments, &film, &process))?;
     let formats = formats(arguments, recipe.form)?;
     let compiled = clock.time("bake", || Compiled::new(&film, &process, &recipe, scene.as_deref()))?;
-    let measured = clock.time("certify", || Measured::new(&film, &process, &compiled, scene.as_deref()))?;
+    let measured = clock.time("certify", || Measured::new(&film, &process, &compiled, &formats, scene.as_deref()))?;
     let folder = match &arguments.out {
         Some(folder) => folders::make(folder)?,
         None => folders::output(&process.name())?,
@@ -161,9 +161,10 @@ fn formats(arguments: &Arguments, form: Form) -> Result<Vec<Format>> {
     Ok(formats)
 }
 
-/// A table's certificates, and its deviation on the user's own pictures.
+/// What the files are worth: certificates of their numbers as written, and the deviation on the user's own pictures.
 struct Measured {
-    srgb: Certificate,
+    /// By format, in the order asked for.
+    files: Vec<(Format, Certificate)>,
     rec2020: Option<Certificate>,
     scene: Option<Deviation>,
     /// Chroma of 18 % grey, the largest of all greys, and the exposure of that grey in stops.
@@ -171,23 +172,45 @@ struct Measured {
 }
 
 impl Measured {
-    fn new(film: &Reference, process: &Process, compiled: &Compiled, scene: Option<&[[f64; 3]]>) -> Result<Self> {
+    fn new(
+        film: &Reference,
+        process: &Process,
+        compiled: &Compiled,
+        formats: &[Format],
+        scene: Option<&[[f64; 3]]>,
+    ) -> Result<Self> {
         let measure = Measure::new(film, process)?;
-        let certify = |space| {
-            let samples = measure.samples(&Law::default(), space)?;
-            measure.certify_in(space, &samples, |rgb| compiled.apply(rgb), Search::Ascent)
-        };
+        let export = Export { process, compiled, comments: Vec::new() };
+        let samples = measure.samples(&Law::default(), WorkingSpace::Srgb)?;
+        let mut files = Vec::new();
+        for &format in formats {
+            let written = export.as_written(format)?;
+            files.push((format, measure.certify(&samples, &written, Search::Ascent)?));
+        }
+        let first = export.as_written(formats[0])?;
         // A plain table takes what is inside its own primaries only.
         let rec2020 = match compiled {
-            Compiled::Structured(_) => Some(certify(WorkingSpace::Rec2020)?),
+            Compiled::Structured(_) => {
+                let samples = measure.samples(&Law::default(), WorkingSpace::Rec2020)?;
+                Some(measure.certify_in(WorkingSpace::Rec2020, &samples, &first, Search::Ascent)?)
+            }
             Compiled::Plain(_) | Compiled::Coded { .. } => None,
         };
-        let scene = scene.map(|colours| on_scene(film, compiled, colours)).transpose()?;
-        Ok(Self { srgb: certify(WorkingSpace::Srgb)?, rec2020, scene, tint: measure.tint() })
+        let scene = scene.map(|colours| on_scene(film, &first, colours)).transpose()?;
+        Ok(Self { files, rec2020, scene, tint: measure.tint() })
+    }
+
+    /// The certificate of the first format.
+    fn srgb(&self) -> &Certificate {
+        &self.files[0].1
     }
 
     fn text(&self) -> String {
-        let mut text = in_words(&self.srgb, "sRGB");
+        let mut text = in_words(self.srgb(), "sRGB");
+        for (format, certificate) in &self.files[1..] {
+            let (mean, max) = (certificate.overall.mean, certificate.max_found);
+            let _ = writeln!(text, "  the same for {}: mean {mean:.3}, max {max:.3}", format.word());
+        }
         if let Some(wide) = &self.rec2020 {
             let (mean, max) = (wide.overall.mean, wide.max_found);
             let _ = writeln!(text, "  the same for Rec.2020 colours: mean {mean:.3}, max {max:.3}");
@@ -208,13 +231,13 @@ impl Measured {
     }
 
     fn warnings(&self, max_de: Option<f64>) -> Vec<String> {
-        self.srgb.failures(max_de.unwrap_or(WARN_ABOVE))
+        self.srgb().failures(max_de.unwrap_or(WARN_ABOVE))
     }
 
     /// A few lines for formats that hold comments.
     fn comments(&self, process: &Process, compiled: &Compiled) -> Vec<String> {
-        let (mean, max) = to_six_stops(&self.srgb);
-        let certificate = &self.srgb;
+        let (mean, max) = to_six_stops(self.srgb());
+        let certificate = self.srgb();
         vec![
             format!(
                 "onelight {}: {}, {} aim, {}",
@@ -237,9 +260,9 @@ impl Measured {
     }
 }
 
-fn on_scene(film: &Reference, compiled: &Compiled, colours: &[[f64; 3]]) -> Result<Deviation> {
+fn on_scene(film: &Reference, written: &Applied, colours: &[[f64; 3]]) -> Result<Deviation> {
     let difference = film.difference()?;
-    let table = |rgb: [f64; 3]| compiled.apply(rgb.map(|v| v as f32)).map(|v| film.coding().decode(f64::from(v)));
+    let table = |rgb: [f64; 3]| written(rgb.map(|v| v as f32)).map(|v| film.coding().decode(f64::from(v)));
     let between = |a: &[f64; 3], b: &[f64; 3]| difference.between(*a, *b);
     deviation(colours, |rgb| film.develop_linear(rgb), table, between).context("the scene")
 }
@@ -260,11 +283,12 @@ fn json(
         "coding": format!("{:?}", recipe.coding).to_lowercase(),
         "description": compiled.describe(),
         "unit": "CIEDE2000",
-        "certificate": measured.srgb,
+        "certificate": measured.srgb(),
+        "certificates": measured.files.iter().map(|(f, c)| (f.word(), json!(c))).collect::<serde_json::Map<_, _>>(),
         "certificate_rec2020": measured.rec2020,
         "scene": measured.scene,
         "tint": { "unit": "CIELAB C*", "mid_grey": measured.tint.0, "largest": measured.tint.1, "stops": measured.tint.2 },
         "limit": limit,
-        "failures": measured.srgb.failures(limit),
+        "failures": measured.srgb().failures(limit),
     })
 }

@@ -242,12 +242,26 @@ impl Compiled {
     pub(crate) fn apply(&self, linear: [f32; 3]) -> [f32; 3] {
         match self {
             Self::Plain(lut) => lut.apply(linear),
-            Self::Coded { table, coordinate } => {
-                let coordinates = coordinate.encode(linear.map(finite));
-                table.apply(coordinates.map(|v| v as f32), Interpolation::Tetrahedral)
-            }
+            Self::Coded { table, .. } => table.apply(self.coordinates_for_file(linear), Interpolation::Tetrahedral),
             Self::Structured(lut) => lut.apply(linear),
         }
+    }
+
+    /// What a file of this look expects for scene-linear RGB: the light itself, or its coding.
+    pub(crate) fn coordinates_for_file(&self, linear: [f32; 3]) -> [f32; 3] {
+        match self {
+            Self::Plain(_) | Self::Structured(_) => linear,
+            Self::Coded { coordinate, .. } => coordinate.encode(linear.map(finite)).map(|v| v as f32),
+        }
+    }
+
+    /// The same look with other entries, such as those read back from a file.
+    pub(crate) fn with_table(&self, table: Lut3d) -> Result<Self> {
+        Ok(match self {
+            Self::Plain(lut) => Self::Plain(PlainLut::new(*lut.shaper(), table, lut.interpolation())),
+            Self::Coded { coordinate, .. } => Self::Coded { table, coordinate: coordinate.clone() },
+            Self::Structured(lut) => Self::Structured(Box::new(lut.with_table(table))),
+        })
     }
 
     /// [`Compiled::apply`] to every pixel in place, on all threads.
