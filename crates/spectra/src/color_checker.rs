@@ -33,10 +33,19 @@ fn read() -> Result<Vec<Patch>, Error> {
     let table = NumberTable::parse("colorchecker24.csv", include_str!("../data/colorchecker24.csv"))?;
     let patch = |column: &String| {
         let nodes = table.nodes("wavelength_nm", column)?;
-        let name = column.trim_start_matches(|c: char| c.is_ascii_digit() || c == '_').replace('_', " ");
-        Ok(Patch { name, reflectance: linear(&nodes, SpectralShape::VISIBLE, Outside::Held)? })
+        Ok(Patch { name: name(column), reflectance: linear(&nodes, SpectralShape::VISIBLE, Outside::Held)? })
     };
     table.names()[1..].iter().map(patch).collect()
+}
+
+/// `19_white_9p5_p05_D` is `white 9.5`: number in the chart, name, Munsell value, density.
+fn name(column: &str) -> String {
+    let name = column.trim_start_matches(|c: char| c.is_ascii_digit() || c == '_');
+    let name = name.strip_suffix("_D").and_then(|name| name.rsplit_once('_')).map_or(name, |(name, _density)| name);
+    name.split('_')
+        .map(|word| word.replace("9p5", "9.5").replace("6p5", "6.5").replace("3p5", "3.5"))
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 #[cfg(test)]
@@ -44,6 +53,15 @@ mod tests {
     use super::*;
     use crate::{Illuminant, Observer, illuminant};
     use approx::assert_relative_eq;
+
+    #[test]
+    fn patches_have_plain_names() {
+        let chart = read().unwrap();
+        let names: Vec<&str> = chart.iter().map(|patch| patch.name.as_str()).collect();
+        assert_eq!(names[..2], ["dark skin", "light skin"]);
+        let greys = ["white 9.5", "neutral 8", "neutral 6.5", "neutral 5", "neutral 3.5", "black 2"];
+        assert_eq!(names[18..], greys);
+    }
 
     #[test]
     fn neutral_5_reflects_a_fifth() {

@@ -70,7 +70,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         arguments.colours, "process", "form", "mean", "worst*", "p99", "max", "to +6: mean, max"
     );
     let mut rows = Vec::new();
-    let mut last = String::new();
+    // The best form of a single process is described in full.
+    let mut best = (f64::INFINITY, String::new());
     for process in &processes {
         let film = clock.time("compile", || process.compile())?;
         let measure = Measure::new(&film, process)?;
@@ -81,7 +82,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
                 clock.time("certify", || measure.certify(&samples, |rgb| compiled.apply(rgb), Search::Ascent))?;
             let name = format!("{}, {} aim", process.name(), process.aim.word());
             row(&mut text, &name, form, &found);
-            last = format!("\n{name}, {form}\n{}", in_words(&found, "sRGB"));
+            if found.max_found < best.0 {
+                best = (found.max_found, format!("\n{name}, {form}\n{}", in_words(&found, "sRGB")));
+            }
             rows.push(
                 json!({ "process": process, "form": form, "description": compiled.describe(), "certificate": found }),
             );
@@ -91,7 +94,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     progress.finish_and_clear();
     text.push_str("* the worst of the five bands of four stops\n");
     if processes.len() == 1 {
-        text.push_str(&last);
+        text.push_str(&best.1);
     }
     let _ = writeln!(text, "time: {}", clock.sentence());
     Ok(Report { text, json: Value::from(rows), as_json: arguments.json })
