@@ -1,6 +1,6 @@
 //! A baked look as the files that programs load.
 
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 use clap::ValueEnum;
 use onelight::Process;
 use onelight::lut::{
@@ -29,6 +29,11 @@ pub(crate) enum Format {
 }
 
 impl Format {
+    /// The sentence for a structured look in a format that holds one table only.
+    pub(crate) fn takes_no_structured_form(self) -> anyhow::Error {
+        anyhow!("--format {} cannot hold the structured form, expected clf, or --form plain", self.word())
+    }
+
     /// Its name on the command line.
     pub(crate) fn word(self) -> String {
         self.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
@@ -74,7 +79,7 @@ impl Export<'_> {
             Format::Strip => read_strip(bytes, StripGreen::Down)?,
             Format::Hald => read_hald(bytes)?,
         };
-        let compiled = self.compiled.with_table(table)?;
+        let compiled = self.compiled.with_table(table);
         Ok(Box::new(move |rgb| compiled.apply(rgb)))
     }
 
@@ -137,11 +142,8 @@ impl Export<'_> {
     /// The table of a plain form.
     fn table(&self, format: Format) -> Result<&Lut3d> {
         match self.compiled {
-            Compiled::Plain(lut) => Ok(lut.table()),
-            Compiled::Coded { table, .. } => Ok(table),
-            Compiled::Structured(_) => {
-                bail!("--format {} cannot hold the structured form, expected clf, or --form plain", format.word())
-            }
+            Compiled::Plain(_) | Compiled::Coded { .. } => Ok(self.compiled.table()),
+            Compiled::Structured(_) => Err(format.takes_no_structured_form()),
         }
     }
 

@@ -1,11 +1,13 @@
 //! The words of `look.toml` and of the command line: one list for both.
 
 use onelight_film::{DyeModel, Matching, Tail};
+use onelight_lut::Storage;
 use onelight_printing::{Aim, HeatGlass, Infrared, Projector};
 use onelight_spectra::{Reconstruction, RgbSpace, TransferCurve};
 
 use crate::error::{Error, Kind};
 use crate::stocks::{cut, nearest};
+use crate::structured::{Entries, TableCoding};
 
 /// A choice that has a word for each of its values.
 ///
@@ -106,6 +108,18 @@ words! {
         Projector::Display = "display" "6500 K",
         Projector::Theatre = "theatre" "5500 K, the eye adapted to it",
         Projector::TheatreUnadapted = "theatre-unadapted" "5500 K beside a 6500 K display";
+    Entries, "entries":
+        Entries::Sampled = "sampled" "the film's result at each node",
+        Entries::Fitted = "fitted" "moved so that what is read between nodes comes nearest to the film";
+    TableCoding, "coding":
+        TableCoding::Density = "density" "densities: the most accurate in 16 bits and more",
+        TableCoding::Display = "display" "display-coded colours: better in 10 bits and fewer";
+    Storage, "storage":
+        Storage::F32 = "f32" "32-bit float",
+        Storage::F16 = "f16" "16-bit float",
+        Storage::Unorm16 = "unorm16" "16-bit integers over the range of the entries",
+        Storage::Unorm10 = "unorm10" "10-bit integers",
+        Storage::Unorm8 = "unorm8" "8-bit integers";
     WorkingSpace, "space":
         WorkingSpace::Srgb = "srgb" "sRGB primaries",
         WorkingSpace::P3 = "p3" "Display P3 primaries",
@@ -156,6 +170,9 @@ mod tests {
         complete::<HeatGlass>();
         complete::<Tail>();
         complete::<Projector>();
+        complete::<Entries>();
+        complete::<TableCoding>();
+        complete::<Storage>();
         complete::<WorkingSpace>();
         complete::<TransferCurve>();
     }

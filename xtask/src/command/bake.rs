@@ -1,18 +1,16 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use clap::Args;
 use onelight::lut::{Certificate, Deviation, Law, Search, Storage, deviation};
 use onelight::{Entries, Process, Reference, TableCoding, TransferCurve, Word, WorkingSpace};
 use serde_json::json;
 
 use crate::certificate::{Measure, in_words, to_six_stops};
-use crate::compiled::{
-    CodingChoice, Compiled, EntriesChoice, Form, Recipe, ShaperChoice, StorageChoice, smallest_under,
-};
+use crate::compiled::{Compiled, Form, Recipe, ShaperChoice, smallest_under};
 use crate::export::{Applied, Export, Format};
-use crate::look::LookArguments;
+use crate::look::{LookArguments, words};
 use crate::progress::Clock;
 use crate::whole::WholeSet;
 use crate::{Report, folders, preview, scene_colours};
@@ -37,14 +35,14 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "STOPS", value_parser = stops)]
     stops: Option<f64>,
     /// Where the entries come from [default: sampled plain, fitted structured]
-    #[arg(long)]
-    entries: Option<EntriesChoice>,
+    #[arg(long, value_parser = words::<Entries>())]
+    entries: Option<Entries>,
     /// How the entries are stored; what is measured is what was stored
-    #[arg(long, default_value = "f32")]
-    storage: StorageChoice,
+    #[arg(long, default_value = "f32", value_parser = words::<Storage>())]
+    storage: Storage,
     /// What the entries of a structured table are
-    #[arg(long, default_value = "density")]
-    coding: CodingChoice,
+    #[arg(long, default_value = "density", value_parser = words::<TableCoding>())]
+    coding: TableCoding,
     /// Files to write, comma-separated [default: cube for plain, clf for structured]
     #[arg(long, value_delimiter = ',', value_name = "FORMATS")]
     format: Vec<Format>,
@@ -82,12 +80,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     };
     let export = Export { process: &process, compiled: &compiled, comments: measured.comments(&process, &compiled) };
     let mut files = WholeSet::in_folder(&folder);
+    let mut json = json(arguments, &process, &recipe, &compiled, &measured);
     clock.time("write", || -> Result<()> {
         for format in &formats {
             export.add(*format, &mut files)?;
         }
         files.add("look.toml", process.to_toml().into_bytes());
-        files.add("look.json", serde_json::to_vec_pretty(&json(arguments, &process, &recipe, &compiled, &measured))?);
+        files.add("look.json", serde_json::to_vec_pretty(&json)?);
         Ok(())
     })?;
     let preview = clock.time("preview", || preview::sheet(&process, &compiled))?;
@@ -107,7 +106,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         let _ = writeln!(text, "warning: {sentence}");
     }
     let _ = writeln!(text, "time: {}", clock.sentence());
-    let mut json = json(arguments, &process, &recipe, &compiled, &measured);
     json["files"] = shown.into();
     json["seconds"] = clock.json();
     Ok(Report { text, json, as_json: arguments.json })
@@ -129,9 +127,9 @@ fn recipe(arguments: &Arguments, film: &Reference, process: &Process) -> Result<
         size: arguments.size.map_or_else(|| usual_size(arguments, usual.size), usize::from),
         shaper: arguments.shaper,
         stops: arguments.stops,
-        entries: arguments.entries.map_or(usual.entries, Entries::from),
-        storage: Storage::from(arguments.storage),
-        coding: TableCoding::from(arguments.coding),
+        entries: arguments.entries.unwrap_or(usual.entries),
+        storage: arguments.storage,
+        coding: arguments.coding,
         ..usual
     })
 }
@@ -156,7 +154,7 @@ fn formats(arguments: &Arguments, form: Form) -> Result<Vec<Format>> {
     if form == Form::Structured
         && let Some(format) = formats.iter().find(|format| **format != Format::Clf)
     {
-        bail!("--format {} cannot hold the structured form, expected clf, or --form plain", format.word());
+        return Err(format.takes_no_structured_form());
     }
     Ok(formats)
 }
@@ -182,21 +180,24 @@ impl Measured {
         let measure = Measure::new(film, process)?;
         let export = Export { process, compiled, comments: Vec::new() };
         let samples = measure.samples(&Law::default(), WorkingSpace::Srgb)?;
-        let mut files = Vec::new();
+        let mut written = Vec::new();
         for &format in formats {
-            let written = export.as_written(format)?;
-            files.push((format, measure.certify(&samples, &written, Search::Ascent)?));
+            written.push(export.as_written(format)?);
         }
-        let first = export.as_written(formats[0])?;
+        let mut files = Vec::new();
+        for (&format, written) in formats.iter().zip(&written) {
+            files.push((format, measure.certify(&samples, written, Search::Ascent)?));
+        }
+        let first = &written[0];
         // A plain table takes what is inside its own primaries only.
         let rec2020 = match compiled {
             Compiled::Structured(_) => {
                 let samples = measure.samples(&Law::default(), WorkingSpace::Rec2020)?;
-                Some(measure.certify_in(WorkingSpace::Rec2020, &samples, &first, Search::Ascent)?)
+                Some(measure.certify_in(WorkingSpace::Rec2020, &samples, first, Search::Ascent)?)
             }
             Compiled::Plain(_) | Compiled::Coded { .. } => None,
         };
-        let scene = scene.map(|colours| on_scene(film, &first, colours)).transpose()?;
+        let scene = scene.map(|colours| on_scene(film, first, colours)).transpose()?;
         Ok(Self { files, rec2020, scene, tint: measure.tint() })
     }
 
@@ -279,8 +280,8 @@ fn json(
         "process": process,
         "form": recipe.form,
         "size": recipe.size,
-        "storage": format!("{:?}", recipe.storage).to_lowercase(),
-        "coding": format!("{:?}", recipe.coding).to_lowercase(),
+        "storage": recipe.storage.word(),
+        "coding": recipe.coding.word(),
         "description": compiled.describe(),
         "unit": "CIEDE2000",
         "certificate": measured.srgb(),

@@ -8,7 +8,7 @@ use onelight::{Process, Reference};
 use rayon::prelude::*;
 use serde_json::json;
 
-use crate::picture::{Picture, Source, Windows, write_exr};
+use crate::picture::{Picture, Source, write_exr};
 use crate::progress::Clock;
 use crate::truth::{TRUE_FILM, Truth, layers};
 use crate::{Report, folders};
@@ -42,7 +42,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     };
     let files = [folder.join("scene.exr"), folder.join(format!("exposure_{TRUE_FILM}.exr"))];
     clock.time("write", || -> Result<()> {
-        let of = |pixels: &[[f32; 3]]| picture(size, if arguments.commit { in_half(pixels) } else { pixels.to_vec() });
+        let of = |pixels: &[[f32; 3]]| {
+            let pixels = if arguments.commit { in_half(pixels) } else { pixels.to_vec() };
+            // The white is not D65, and no chromaticities say "exposure": a reader takes the default, sRGB.
+            Picture::opaque(size.0, size.1, pixels, Source::Exr)
+        };
         write_exr(&files[0], &of(&scene.rgb), &[("note", "sRGB primaries, white is the 6500 K black body")])?;
         let note = "R, G, B: exposure of the red, green and blue layer, matching vector included";
         write_exr(&files[1], &of(&scene.exposure), &[("note", note)])
@@ -95,20 +99,6 @@ fn cost_of_rgb(film: &Reference, scene: &Truth, pixels: &[usize]) -> Result<Devi
 /// Rounded to half precision, which packs three times as small: plenty for a copy that tests compare with.
 fn in_half(pixels: &[[f32; 3]]) -> Vec<[f32; 3]> {
     pixels.iter().map(|rgb| rgb.map(|v| half::f16::from_f32(v).to_f32())).collect()
-}
-
-fn picture((width, height): (usize, usize), rgb: Vec<[f32; 3]>) -> Picture {
-    Picture {
-        width,
-        height,
-        rgb,
-        alpha: None,
-        windows: Windows::of_size(width, height),
-        // The white is not D65, and no chromaticities say "exposure": a reader takes the default, sRGB.
-        primaries: None,
-        source: Source::Exr,
-        notes: Vec::new(),
-    }
 }
 
 #[cfg(test)]

@@ -10,15 +10,9 @@ use crate::progress::bar;
 
 /// Sizes tried, smallest first.
 const SIZES: [usize; 8] = [8, 12, 16, 20, 24, 32, 48, 64];
-/// Storage tried for each size, with the coding that suits it.
-const STORED: [(Storage, TableCoding); 4] = [
-    (Storage::Unorm8, TableCoding::Display),
-    (Storage::Unorm10, TableCoding::Display),
-    (Storage::F16, TableCoding::Density),
-    (Storage::F32, TableCoding::Density),
-];
-/// What ascents find lies up to this much above the samples' largest: tables nearer to the limit are not followed up.
-const ASCENT_MARGIN: f64 = 1.0;
+/// Codings tried for each size, each with the storage it suits, fewest bytes first.
+const STORED: [(TableCoding, [Storage; 2]); 2] =
+    [(TableCoding::Display, [Storage::Unorm8, Storage::Unorm10]), (TableCoding::Density, [Storage::F16, Storage::F32])];
 
 /// The recipe with the fewest bytes whose certified maximum is at most `limit`.
 ///
@@ -31,25 +25,28 @@ pub(crate) fn smallest_under(film: &Reference, process: &Process, limit: f64) ->
     let mut best: Option<(usize, Recipe)> = None;
     let mut nearest = f64::INFINITY;
     for size in SIZES {
-        let cheapest = STORED[0].0.bytes() * size.pow(3);
-        if best.as_ref().is_some_and(|(bytes, _)| cheapest >= *bytes) {
-            break;
-        }
-        for (storage, coding) in STORED {
-            let bytes = storage.bytes() * size.pow(3);
-            if best.as_ref().is_some_and(|(least, _)| bytes >= *least) {
+        for (coding, stored) in STORED {
+            let too_large = |storage: Storage| best.is_some_and(|(least, _)| storage.bytes() * size.pow(3) >= least);
+            let stored: Vec<Storage> = stored.into_iter().filter(|&storage| !too_large(storage)).collect();
+            if stored.is_empty() {
                 continue;
             }
-            let recipe = Recipe { size, storage, coding, ..Recipe::usual(Form::Structured) };
-            let compiled = Compiled::new(film, process, &recipe, None)?;
-            let quick = measure.certify(&samples, |rgb| compiled.apply(rgb), Search::SamplesOnly)?;
-            nearest = nearest.min(quick.max_found);
-            if quick.max_found * ASCENT_MARGIN > limit {
-                continue;
-            }
-            let found = measure.certify(&samples, |rgb| compiled.apply(rgb), Search::Ascent)?;
-            if found.max_found <= limit {
-                best = Some((bytes, recipe));
+            // Fitted once, then stored in each way.
+            let recipe = Recipe { size, coding, ..Recipe::usual(Form::Structured) };
+            let exact = Compiled::new(film, process, &recipe, None)?;
+            for storage in stored {
+                let compiled = exact.with_table(storage.stored(exact.table())?);
+                let quick = measure.certify(&samples, |rgb| compiled.apply(rgb), Search::SamplesOnly)?;
+                nearest = nearest.min(quick.max_found);
+                // An ascent only finds more.
+                if quick.max_found > limit {
+                    continue;
+                }
+                let found = measure.certify(&samples, |rgb| compiled.apply(rgb), Search::Ascent)?;
+                let bytes = storage.bytes() * size.pow(3);
+                if found.max_found <= limit && best.is_none_or(|(least, _)| bytes < least) {
+                    best = Some((bytes, Recipe { storage, ..recipe }));
+                }
             }
         }
         progress.inc(1);

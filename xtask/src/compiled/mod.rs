@@ -69,69 +69,6 @@ impl ShaperChoice {
     }
 }
 
-/// How table entries are stored.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum StorageChoice {
-    /// 32-bit float
-    F32,
-    /// 16-bit float
-    F16,
-    /// 16-bit integers over the range of the entries
-    Unorm16,
-    /// 10-bit integers
-    Unorm10,
-    /// 8-bit integers
-    Unorm8,
-}
-
-impl From<StorageChoice> for Storage {
-    fn from(choice: StorageChoice) -> Self {
-        match choice {
-            StorageChoice::F32 => Self::F32,
-            StorageChoice::F16 => Self::F16,
-            StorageChoice::Unorm16 => Self::Unorm16,
-            StorageChoice::Unorm10 => Self::Unorm10,
-            StorageChoice::Unorm8 => Self::Unorm8,
-        }
-    }
-}
-
-/// What the entries of a structured table are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum CodingChoice {
-    /// Densities: the most accurate in 16 bits and more
-    Density,
-    /// Display-coded colours: better in 10 bits and fewer
-    Display,
-}
-
-impl From<CodingChoice> for TableCoding {
-    fn from(choice: CodingChoice) -> Self {
-        match choice {
-            CodingChoice::Density => Self::Density,
-            CodingChoice::Display => Self::Display,
-        }
-    }
-}
-
-/// Where the entries come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum EntriesChoice {
-    /// The film's result at each node
-    Sampled,
-    /// Moved so that what is read between nodes comes nearest to the film
-    Fitted,
-}
-
-impl From<EntriesChoice> for Entries {
-    fn from(choice: EntriesChoice) -> Self {
-        match choice {
-            EntriesChoice::Sampled => Self::Sampled,
-            EntriesChoice::Fitted => Self::Fitted,
-        }
-    }
-}
-
 /// Everything that decides what a look is baked to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Recipe {
@@ -256,12 +193,21 @@ impl Compiled {
     }
 
     /// The same look with other entries, such as those read back from a file.
-    pub(crate) fn with_table(&self, table: Lut3d) -> Result<Self> {
-        Ok(match self {
+    pub(crate) fn with_table(&self, table: Lut3d) -> Self {
+        match self {
             Self::Plain(lut) => Self::Plain(PlainLut::new(*lut.shaper(), table, lut.interpolation())),
             Self::Coded { coordinate, .. } => Self::Coded { table, coordinate: coordinate.clone() },
             Self::Structured(lut) => Self::Structured(Box::new(lut.with_table(table))),
-        })
+        }
+    }
+
+    /// Its table, as stored.
+    pub(crate) fn table(&self) -> &Lut3d {
+        match self {
+            Self::Plain(lut) => lut.table(),
+            Self::Coded { table, .. } => table,
+            Self::Structured(lut) => &lut.parts().table,
+        }
     }
 
     /// [`Compiled::apply`] to every pixel in place, on all threads.

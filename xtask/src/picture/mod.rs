@@ -64,6 +64,14 @@ pub(crate) struct Picture {
     pub(crate) notes: Vec<String>,
 }
 
+impl Picture {
+    /// Opaque colours of one window at the origin, of no named primaries.
+    pub(crate) fn opaque(width: usize, height: usize, rgb: Vec<[f32; 3]>, source: Source) -> Self {
+        let windows = Windows::of_size(width, height);
+        Self { width, height, rgb, alpha: None, windows, primaries: None, source, notes: Vec::new() }
+    }
+}
+
 /// The windows of OpenEXR: pixels are given in the data window, the display window is what a viewer shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Windows {

@@ -6,7 +6,7 @@ use anyhow::{Result, anyhow, bail};
 use png::{BitDepth, ColorType, Decoder, DecodingError, Transformations};
 
 use super::{
-    Limits, Picture, Pixels, Source, Windows,
+    Limits, Picture, Pixels, Source,
     guard::guarded,
     limits::{allocate, check_claim},
 };
@@ -45,16 +45,7 @@ fn decode<R: BufRead + Seek>(reader: R, length: u64, limits: &Limits) -> Result<
         8 => pixels(&bytes, colour, |[byte]: [u8; 1]| f32::from(byte) / 255.0)?,
         _ => pixels(&bytes, colour, |word| f32::from(u16::from_be_bytes(word)) / 65_535.0)?,
     };
-    Ok(Picture {
-        width,
-        height,
-        rgb,
-        alpha,
-        windows: Windows::of_size(width, height),
-        primaries: None,
-        source: Source::Png { bits },
-        notes: Vec::new(),
-    })
+    Ok(Picture { alpha, ..Picture::opaque(width, height, rgb, Source::Png { bits }) })
 }
 
 /// Colours and coverage from samples of `N` bytes.

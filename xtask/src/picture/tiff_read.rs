@@ -10,7 +10,7 @@ use tiff::{
 };
 
 use super::{
-    Limits, Picture, Pixels, Samples, Source, Windows, alpha,
+    Limits, Picture, Pixels, Samples, Source, alpha,
     guard::guarded,
     limits::{allocate, check_claim},
 };
@@ -79,16 +79,8 @@ fn decode<R: Read + Seek>(reader: R, length: u64, limits: &Limits) -> Result<Pic
     if decoder.find_tag_unsigned::<u16>(Tag::Orientation).map_err(sentence)?.is_some_and(|way| way > 1) {
         notes.push("left the TIFF's orientation as stored".to_owned());
     }
-    Ok(Picture {
-        width,
-        height,
-        rgb,
-        alpha,
-        windows: Windows::of_size(width, height),
-        primaries: None,
-        source: Source::Tiff { bits, samples: kind },
-        notes,
-    })
+    let source = Source::Tiff { bits, samples: kind };
+    Ok(Picture { alpha, notes, ..Picture::opaque(width, height, rgb, source) })
 }
 
 /// How the samples lie: `planes` is 1 where a pixel's samples are side by side, else one plane a channel.

@@ -20,16 +20,7 @@ fn sample(width: usize, height: usize) -> Picture {
     if let Some(colour) = rgb.get_mut(width + 1) {
         *colour = [f32::INFINITY, f32::NAN, -3.5];
     }
-    Picture {
-        width,
-        height,
-        rgb,
-        alpha: None,
-        windows: Windows::of_size(width, height),
-        primaries: None,
-        source: Source::Exr,
-        notes: Vec::new(),
-    }
+    Picture::opaque(width, height, rgb, Source::Exr)
 }
 
 fn read_bytes(bytes: &[u8]) -> Result<Picture> {
