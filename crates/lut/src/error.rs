@@ -50,6 +50,8 @@ pub(crate) enum Kind {
     Difference { index: usize, sample: [f64; 3], found: f64 },
     Text { line: usize, problem: TextProblem },
     TextBytes { max: u64 },
+    PixelLayout { width: usize, height: usize, channels: usize, stride: usize, len: usize },
+    PictureSizes { from: [usize; 2], to: [usize; 2] },
     Half { node: [usize; 3], found: [f32; 3] },
     Picture { what: &'static str, found: String, expected: &'static str },
     Io(io::Error),
@@ -116,6 +118,15 @@ impl fmt::Display for Error {
             Kind::Entry3d { node, found } => {
                 write!(f, "entry of a 3D LUT at node {node:?}: found {found:?}, expected finite numbers")
             }
+            Kind::PixelLayout { width, height, channels, stride, len } => write!(
+                f,
+                "picture of {width}x{height} pixels, {channels} samples each, rows {stride} samples apart: found {len} samples, expected at least as many as that takes, and rows no longer than their distance"
+            ),
+            Kind::PictureSizes { from, to } => write!(
+                f,
+                "size of the picture to write: found {}x{}, expected {}x{} as in the one to read",
+                to[0], to[1], from[0], from[1]
+            ),
             Kind::BakedNode { node, linear, found } => write!(
                 f,
                 "baked function at node {node:?}, linear {linear:?}: found {found:?}, expected numbers finite in f32"

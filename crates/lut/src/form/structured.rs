@@ -154,11 +154,11 @@ impl StructuredLut {
     }
 }
 
-fn matrix(rows: &Rows) -> Mat3 {
+pub(super) fn matrix(rows: &Rows) -> Mat3 {
     Mat3::from_cols_array_2d(rows).transpose()
 }
 
-fn check(what: &'static str, rows: &Rows) -> Result<(), Error> {
+pub(super) fn check(what: &'static str, rows: &Rows) -> Result<(), Error> {
     match rows.iter().flatten().find(|v| !v.is_finite()) {
         Some(&found) => Err(Kind::Parameter { what, found: f64::from(found), expected: "a finite number" }.into()),
         None => Ok(()),

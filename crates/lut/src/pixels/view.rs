@@ -1,0 +1,122 @@
+use super::sample::Sample;
+use crate::error::{Error, Kind};
+
+/// The channels of a pixel, in memory order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Channels {
+    /// Red, green, blue.
+    Rgb,
+    /// Red, green, blue, alpha. Alpha is carried along; RGB is not multiplied or divided by it.
+    Rgba,
+}
+
+impl Channels {
+    /// Samples of a pixel.
+    pub fn count(self) -> usize {
+        match self {
+            Self::Rgb => 3,
+            Self::Rgba => 4,
+        }
+    }
+}
+
+/// A picture to read: rows of interleaved samples.
+#[derive(Clone, Copy, Debug)]
+pub struct Pixels<'a, S> {
+    pub(super) samples: &'a [S],
+    pub(super) layout: Layout,
+}
+
+/// A picture to write, or to change in place.
+#[derive(Debug)]
+pub struct PixelsMut<'a, S> {
+    pub(super) samples: &'a mut [S],
+    pub(super) layout: Layout,
+}
+
+/// Where the pixels of a picture lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Layout {
+    pub(super) channels: Channels,
+    pub(super) width: usize,
+    pub(super) height: usize,
+    /// Samples from the start of a row to the start of the next.
+    pub(super) stride: usize,
+}
+
+impl Layout {
+    /// The samples that a picture takes, if the numbers fit together.
+    fn new(len: usize, channels: Channels, width: usize, height: usize, stride: usize) -> Result<Self, Error> {
+        let layout = Self { channels, width, height, stride };
+        let row = width.checked_mul(channels.count());
+        let needed = row.and_then(|row| match height {
+            0 => Some(0),
+            _ if row > stride => None,
+            _ => stride.checked_mul(height - 1)?.checked_add(row),
+        });
+        match needed {
+            Some(needed) if needed <= len => Ok(layout),
+            _ => Err(Kind::PixelLayout { width, height, channels: channels.count(), stride, len }.into()),
+        }
+    }
+
+    pub(super) fn row_samples(self) -> usize {
+        self.width * self.channels.count()
+    }
+}
+
+impl<'a, S: Sample> Pixels<'a, S> {
+    /// A picture whose rows follow each other.
+    ///
+    /// # Errors
+    /// If there are fewer samples than the picture takes.
+    pub fn new(samples: &'a [S], channels: Channels, [width, height]: [usize; 2]) -> Result<Self, Error> {
+        Self::with_stride(samples, channels, [width, height], width.saturating_mul(channels.count()))
+    }
+
+    /// A picture whose rows begin `stride` samples apart.
+    ///
+    /// # Errors
+    /// If a row is longer than `stride`, or there are fewer samples than the picture takes.
+    pub fn with_stride(
+        samples: &'a [S],
+        channels: Channels,
+        [width, height]: [usize; 2],
+        stride: usize,
+    ) -> Result<Self, Error> {
+        Ok(Self { layout: Layout::new(samples.len(), channels, width, height, stride)?, samples })
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [usize; 2] {
+        [self.layout.width, self.layout.height]
+    }
+}
+
+impl<'a, S: Sample> PixelsMut<'a, S> {
+    /// A picture whose rows follow each other.
+    ///
+    /// # Errors
+    /// If there are fewer samples than the picture takes.
+    pub fn new(samples: &'a mut [S], channels: Channels, [width, height]: [usize; 2]) -> Result<Self, Error> {
+        Self::with_stride(samples, channels, [width, height], width.saturating_mul(channels.count()))
+    }
+
+    /// A picture whose rows begin `stride` samples apart; what lies between rows is left alone.
+    ///
+    /// # Errors
+    /// If a row is longer than `stride`, or there are fewer samples than the picture takes.
+    pub fn with_stride(
+        samples: &'a mut [S],
+        channels: Channels,
+        [width, height]: [usize; 2],
+        stride: usize,
+    ) -> Result<Self, Error> {
+        Ok(Self { layout: Layout::new(samples.len(), channels, width, height, stride)?, samples })
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [usize; 2] {
+        [self.layout.width, self.layout.height]
+    }
+}
