@@ -14,6 +14,7 @@ use rayon::prelude::*;
 use crate::error::Error;
 use crate::reference::Reference;
 use axes::Axes;
+pub(crate) use axes::over_log2;
 
 /// Where the entries of a table come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -197,11 +198,11 @@ fn towards_the_edge(i: usize, rgb: [f64; 3]) -> [f64; 3] {
     moved
 }
 
-fn rows(matrix: &Matrix3<f64>) -> Rows {
+pub(crate) fn rows(matrix: &Matrix3<f64>) -> Rows {
     std::array::from_fn(|i| std::array::from_fn(|k| matrix[(i, k)] as f32))
 }
 
-fn coding(curve: TransferCurve) -> PowerCoding {
+pub(crate) fn coding(curve: TransferCurve) -> PowerCoding {
     let (exponent, offset) = match curve {
         TransferCurve::Linear => return PowerCoding::LINEAR,
         TransferCurve::Srgb => (2.4, 0.055),
