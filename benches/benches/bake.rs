@@ -1,0 +1,52 @@
+//! Making tables from the exact film, on all threads.
+
+use std::time::Duration;
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use onelight::{DirectSettings, Reference, StructuredSettings};
+use onelight_benches::{NEGATIVE, film, shaper};
+use onelight_lut::bake;
+
+/// Nodes along each side.
+const SIZES: [usize; 4] = [16, 32, 33, 64];
+
+fn negative() -> Reference {
+    film(NEGATIVE).expect("a built-in process compiles")
+}
+
+fn plain(c: &mut Criterion) {
+    let (film, shaper) = (negative(), shaper().expect("its numbers are in range"));
+    let direct = film.direct(&DirectSettings::default()).expect("a built-in film is finite");
+    let mut group = c.benchmark_group("bake a plain table, all threads");
+    group.sample_size(10).warm_up_time(Duration::from_millis(200)).measurement_time(Duration::from_secs(1));
+    for size in SIZES {
+        group.throughput(Throughput::Elements(size.pow(3) as u64));
+        group.bench_function(BenchmarkId::new("reference", size), |b| {
+            b.iter(|| bake(size, &shaper, |rgb| film.develop(rgb), |_| {}));
+        });
+        group.bench_function(BenchmarkId::new("direct", size), |b| {
+            let look = |rgb: [f64; 3]| direct.apply(rgb.map(|v| v as f32)).map(f64::from);
+            b.iter(|| bake(size, &shaper, look, |_| {}));
+        });
+    }
+}
+
+fn structured(c: &mut Criterion) {
+    let film = negative();
+    let mut group = c.benchmark_group("fit a structured table, all threads");
+    group.sample_size(10).warm_up_time(Duration::from_millis(200)).measurement_time(Duration::from_secs(1));
+    for size in [16, 32] {
+        let settings = StructuredSettings { size, ..Default::default() };
+        group.bench_function(BenchmarkId::from_parameter(size), |b| b.iter(|| film.structured(&settings)));
+    }
+}
+
+fn direct(c: &mut Criterion) {
+    let film = negative();
+    let mut group = c.benchmark_group("make the direct form, all threads");
+    group.sample_size(10).warm_up_time(Duration::from_millis(200)).measurement_time(Duration::from_secs(1));
+    group.bench_function("usual settings", |b| b.iter(|| film.direct(&DirectSettings::default())));
+}
+
+criterion_group!(benches, plain, structured, direct);
+criterion_main!(benches);

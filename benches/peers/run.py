@@ -1,0 +1,228 @@
+#!/usr/bin/env python3
+"""Runs OpenColorIO and spectral-film-lut beside ours: same machine, same numbers, turn by turn. README.md says how and why.
+
+Prints a table and the targets; writes target/onelight/peers.json.
+"""
+
+import argparse
+import contextlib
+import datetime
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+import environment
+import results
+from protocol import Child, allowed_cpus, hold_to
+
+OCIO, FILM_LUT, COPY, PLAIN = "OpenColorIO", "spectral-film-lut", "copy of the f32 picture", "our plain, f32 to f32"
+TARGETS = [
+    results.Target("plain f32 to f32, one thread, times OpenColorIO", ("plain, f32 to f32", OCIO, True, "warm"), 2.2, "faster"),
+    results.Target("plain f32 to RGBA8, one thread, times OpenColorIO", ("plain, f32 to u8", OCIO, True, "warm"), 3, "faster"),
+    results.Target("plain f32 to RGBA8, all cores, in copies", ("plain, f32 to u8", COPY, False, "warm"), 3, "cost"),
+    results.Target("structured f32 to f32, one thread, in plain", ("structured, f32 to f32", PLAIN, True, "warm"), 2, "cost"),
+    results.Target("direct f32 to f32, one thread, in plain", ("direct, f32 to f32", PLAIN, True, "warm"), 10, "cost"),
+    results.Target("the same, as aimed for", ("direct, f32 to f32", PLAIN, True, "warm"), 4, "cost"),
+    results.Target("bake 33^3, one thread, times spectral-film-lut", ("bake 33^3, direct", FILM_LUT, True, "warm"), 10, "faster"),
+    results.Target("whole process to .cube, times spectral-film-lut", ("bake 33^3 to .cube", FILM_LUT, False, "process"), 70, "faster"),
+]
+# What the difference of two results may be: the same numbers, rounded on two ways.
+TOLERANCE = {"f32": (2e-4, ""), "u8": (1, "codes")}
+BAKE_SIZE = 33
+# Longest that one comparison goes on, in seconds, but three turns at least.
+PATIENCE = 8.0
+
+
+class Run:
+    def __init__(self, arguments, folder):
+        self.folder = folder
+        self.width, self.height = (960, 540) if arguments.quick else (3840, 2160)
+        self.rounds = 3 if arguments.quick else 15
+        self.fresh = 1 if arguments.quick else 3
+        self.cpus = allowed_cpus()
+        self.rows = []
+        self.notes = []
+        self.begin = time.monotonic()
+        self.peer, self.xtask = environment.programs()
+        self.python = environment.python()
+
+    def say(self, sentence):
+        print(f"[{time.monotonic() - self.begin:5.0f} s] {sentence}", file=sys.stderr, flush=True)
+
+    def cpus_for(self, threads):
+        return self.cpus[-1:] if threads == 1 else self.cpus
+
+    def ours(self, threads):
+        child = Child("onelight", [self.peer], self.cpus_for(threads))
+        child.ask("threads", threads)
+        return child
+
+    def opencolorio(self, threads):
+        child = Child(OCIO, [self.python, str(environment.HERE / "opencolorio_peer.py")], self.cpus_for(threads))
+        child.ask("threads", threads)
+        return child
+
+    def film_lut(self, threads):
+        counts = ["NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"]
+        command = [self.python, str(environment.HERE / "film_lut_peer.py")]
+        return Child(FILM_LUT, command, self.cpus_for(threads), {name: str(threads) for name in counts})
+
+    def read(self, child, *more):
+        child.ask("read", self.folder, self.width, self.height, *more)
+
+    def turns(self, ours, theirs, rounds=None):
+        """Times of both, turn by turn: ours, theirs, ours, theirs ..."""
+        a, b = [], []
+        end = time.monotonic() + PATIENCE
+        while len(a) < 3 or (len(a) < (rounds or self.rounds) and time.monotonic() < end):
+            a += ours()
+            b += theirs()
+        return a, b
+
+    def add(self, *row, **more):
+        self.rows.append(results.Row(*row, **more))
+        self.say(f"{results.table(self.rows[-1:]).splitlines()[1]}")
+
+    # Pictures.
+
+    def pictures(self, threads):
+        pixels = self.width * self.height
+        self.say(f"pictures of {self.width}x{self.height}, {threads} threads")
+        with self.ours(threads) as ours, self.opencolorio(threads) as theirs:
+            self.read(ours)
+            self.read(theirs, *self.shaper)
+            ours.ask("build", "plain")
+            apply = lambda form, kind: lambda: ours.ask("apply", form, kind, 1)
+            for kind in ["f32", "u8"]:
+                theirs.ask("build", kind)
+                apply("plain", kind)()
+                theirs.ask("apply", kind, 1)
+                times = self.turns(apply("plain", kind), lambda: theirs.ask("apply", kind, 1))
+                result = self.folder / f"ours.{kind}"
+                ours.ask("save", kind, result)
+                (difference,) = theirs.ask("compare", kind, result)
+                result.unlink()
+                tolerance, unit = TOLERANCE[kind]
+                if not difference <= tolerance:
+                    self.notes.append(f"plain, f32 to {kind}: results differ by {difference:g}, expected at most {tolerance:g}")
+                self.add(f"plain, f32 to {kind}", OCIO, threads, "warm", *times, pixels, difference, unit)
+            copy = lambda: ours.ask("copy", 1)
+            for kind in ["f32", "u8"]:
+                copy()
+                self.add(f"plain, f32 to {kind}", COPY, threads, "warm", *self.turns(apply("plain", kind), copy), pixels)
+            for form in ["structured", "direct"]:
+                self.say(f"making the {form} form")
+                ours.ask("build", form)
+                apply(form, "f32")()
+                times = self.turns(apply(form, "f32"), apply("plain", "f32"))
+                self.add(f"{form}, f32 to f32", PLAIN, threads, "warm", *times, pixels)
+
+    def cold_pictures(self, threads):
+        for kind in ["f32", "u8"]:
+            a, b = [], []
+            for _ in range(self.fresh):
+                with self.ours(threads) as ours:
+                    self.read(ours)
+                    a.append(sum(ours.ask("build", "plain") + ours.ask("apply", "plain", kind, 1)))
+                with self.opencolorio(threads) as theirs:
+                    self.read(theirs, *self.shaper)
+                    b.append(sum(theirs.ask("build", kind) + theirs.ask("apply", kind, 1)))
+            self.add(f"plain, f32 to {kind}", OCIO, threads, "cold", a, b, self.width * self.height)
+
+    # Tables.
+
+    def bakes(self, threads):
+        self.say(f"tables of {BAKE_SIZE}^3, {threads} threads; {FILM_LUT} takes its time to begin")
+        nodes = BAKE_SIZE**3
+        with self.ours(threads) as ours, self.film_lut(threads) as theirs:
+            # From nothing to a first table, in these two new processes.
+            a = [sum(ours.ask("compile", 1) + ours.ask("bake", "direct", BAKE_SIZE, 1))]
+            b = [sum(theirs.ask("compile") + theirs.ask("bake", BAKE_SIZE, 1))]
+            self.add(f"compile and bake {BAKE_SIZE}^3, direct", FILM_LUT, threads, "cold", a, b, nodes)
+            for way in ["direct", "reference"]:
+                ours.ask("bake", way, BAKE_SIZE, 1)
+                times = self.turns(
+                    lambda: ours.ask("bake", way, BAKE_SIZE, 1), lambda: theirs.ask("bake", BAKE_SIZE, 1), 7
+                )
+                (worst,) = ours.ask("misses", way, BAKE_SIZE)
+                self.add(f"bake {BAKE_SIZE}^3, {way}", FILM_LUT, threads, "warm", *times, nodes, worst, "dE, node")
+            together = lambda: [sum(ours.ask("compile", 1) + ours.ask("bake", "direct", BAKE_SIZE, 1))]
+            times = self.turns(together, lambda: theirs.ask("bake", BAKE_SIZE, 1), 5)
+            self.add(f"compile and bake {BAKE_SIZE}^3, direct", FILM_LUT, threads, "warm", *times, nodes)
+
+    def processes(self):
+        self.say("whole processes, from the command to the file")
+        options = subprocess.run([self.xtask, "bake", "--help"], stdout=subprocess.PIPE, text=True, check=True).stdout
+        quick = ["--quick"] if "--quick" in options else []
+        if not quick:
+            self.notes.append("bake has no --quick: the whole process is the usual bake, which certifies its table and draws a preview")
+        out = self.folder / "bake"
+        ours = [self.xtask, "bake", *quick, "--size", str(BAKE_SIZE), "--out", str(out)]
+        file = self.folder / "theirs.cube"
+        theirs = [self.python, str(environment.HERE / "film_lut_peer.py"), str(file), str(BAKE_SIZE)]
+        a, b = [], []
+        for _ in range(self.fresh):
+            a.append(self.seconds(ours, out / "look.cube"))
+            b.append(self.seconds(theirs, file))
+        self.add(f"bake {BAKE_SIZE}^3 to .cube", FILM_LUT, len(self.cpus), "process", a, b, BAKE_SIZE**3)
+
+    def seconds(self, command, file):
+        """Nanoseconds of a program that writes a file."""
+        file.unlink(missing_ok=True)
+        begin = time.perf_counter_ns()
+        done = subprocess.run(command, cwd=environment.TOP, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        end = time.perf_counter_ns()
+        if done.returncode or not file.exists():
+            raise RuntimeError(f"{' '.join(command)}: wrote no {file.name}: {done.stdout.strip()[-300:]}")
+        return float(end - begin)
+
+    def all(self):
+        with Child("onelight", [self.peer], self.cpus) as ours:
+            self.shaper = ours.ask("make", self.folder, self.width, self.height)
+        for threads in sorted({1, len(self.cpus)}):
+            self.pictures(threads)
+            self.cold_pictures(threads)
+            self.bakes(threads)
+        self.processes()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quick", action="store_true", help="a small picture and few turns: whether it runs, not how fast")
+    arguments = parser.parse_args()
+
+    environment.OUTPUT.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=environment.OUTPUT, prefix="peers-") as folder:
+        run = Run(arguments, pathlib.Path(folder))
+        report = {
+            "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
+            "machine": environment.machine(run.cpus),
+            "versions": environment.versions(run.python),
+            "quick": arguments.quick,
+            "picture": {"width": run.width, "height": run.height, "channels": "RGBA"},
+        }
+        load = list(os.getloadavg()) if hasattr(os, "getloadavg") else None
+        run.all()
+    judged = [target.judge(run.rows) for target in TARGETS]
+    report |= {"load_before": load, "rows": [row.json() for row in run.rows], "targets": judged, "notes": run.notes}
+    path = environment.OUTPUT / "peers.json"
+    path.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+
+    machine, versions = report["machine"], report["versions"]
+    print(f"{machine['cpu']}, {machine['cores']} cores; {', '.join(f'{k} {v}' for k, v in versions.items())}; {report['date']}")
+    if load and load[0] > 0.5:
+        print(f"Other programs were running: load {load[0]:.1f} before the first turn.")
+    print(f"{run.width}x{run.height} RGBA, medians of turns\n\n{results.table(run.rows)}\n\n{results.verdicts(judged)}")
+    for note in run.notes:
+        print(f"note: {note}")
+    print(f"\n{path.relative_to(environment.TOP)}")
+    return 1 if any("differ by" in note for note in run.notes) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
