@@ -12,7 +12,7 @@ pub(crate) enum Kind {
     Lut(onelight_lut::Error),
     Look { file: String, line: usize, problem: String },
     Word { what: &'static str, found: String, expected: String },
-    Setting { what: &'static str, found: f64, expected: String },
+    Setting { what: String, found: f64, expected: String },
     UnknownStock { found: String, nearest: Option<&'static str> },
     Contradiction(String),
 }

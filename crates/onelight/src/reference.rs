@@ -219,6 +219,10 @@ impl Reference {
         self.coding
     }
 
+    pub(crate) fn output(&self) -> &RgbSpace {
+        &self.output
+    }
+
     pub(crate) fn projection(&self) -> &Projection {
         &self.projection
     }

@@ -182,7 +182,7 @@ impl Encode<'_> {
 
 /// Every fourth colour is moved to full saturation and every sixteenth to a primary or secondary: the edges of what light
 /// can reach, where chance seldom falls and differences are largest.
-fn towards_the_edge(i: usize, rgb: [f64; 3]) -> [f64; 3] {
+pub(crate) fn towards_the_edge(i: usize, rgb: [f64; 3]) -> [f64; 3] {
     let mut order = [0, 1, 2];
     order.sort_by(|&a, &b| rgb[b].total_cmp(&rgb[a]));
     let [most, middle, least] = order;
