@@ -3,12 +3,15 @@
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use onelight::{DirectSettings, Reference, StructuredSettings};
+use onelight::{DirectSettings, Nodes, Reference, StructuredSettings};
 use onelight_benches::{NEGATIVE, film, shaper};
 use onelight_lut::bake;
 
 /// Nodes along each side.
 const SIZES: [usize; 4] = [16, 32, 33, 64];
+
+/// The direct form to bake with.
+const GRID: DirectSettings = DirectSettings { nodes: Nodes::Grid { step_nm: 5 } };
 
 fn negative() -> Reference {
     film(NEGATIVE).expect("a built-in process compiles")
@@ -16,7 +19,7 @@ fn negative() -> Reference {
 
 fn plain(c: &mut Criterion) {
     let (film, shaper) = (negative(), shaper().expect("its numbers are in range"));
-    let direct = film.direct(&DirectSettings::default()).expect("a built-in film is finite");
+    let direct = film.direct(&GRID).expect("a built-in film is finite");
     let mut group = c.benchmark_group("bake a plain table, all threads");
     group.sample_size(10).warm_up_time(Duration::from_millis(200)).measurement_time(Duration::from_secs(1));
     for size in SIZES {
@@ -45,7 +48,9 @@ fn direct(c: &mut Criterion) {
     let film = negative();
     let mut group = c.benchmark_group("make the direct form, all threads");
     group.sample_size(10).warm_up_time(Duration::from_millis(200)).measurement_time(Duration::from_secs(1));
-    group.bench_function("usual settings", |b| b.iter(|| film.direct(&DirectSettings::default())));
+    for (name, settings) in [("fitted", DirectSettings::default()), ("grid", GRID)] {
+        group.bench_function(name, |b| b.iter(|| film.direct(&settings)));
+    }
 }
 
 criterion_group!(benches, plain, structured, direct);

@@ -39,7 +39,7 @@ def python():
     install = [str(executable), "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
     attempt(
         [*install, "-r", str(HERE / "requirements.txt")],
-        "OpenColorIO and spectral-film-lut cannot be installed (Python 3.11 or newer and, this once, the network are needed)",
+        "OpenColorIO and spectral-film-lut cannot be installed (that needs Python 3.11 or newer and the network)",
     )
     stamp.write_text(wanted, encoding="utf-8")
     return str(executable)
@@ -72,9 +72,13 @@ def versions(python_path):
         "names = ['opencolorio', 'spectral-film-lut', 'numpy', 'numba'];"
         "print(json.dumps({'python': platform.python_version(), **{n: m.version(n) for n in names}}))"
     )
-    found = json.loads(subprocess.run([python_path, "-c", script], stdout=subprocess.PIPE, text=True, check=True).stdout)
-    rustc = subprocess.run(["rustc", "--version"], stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
-    metadata = ["cargo", "metadata", "--no-deps", "--format-version", "1"]
-    packages = json.loads(subprocess.run(metadata, cwd=TOP, stdout=subprocess.PIPE, check=True).stdout)["packages"]
+    found = json.loads(told([python_path, "-c", script]))
+    rustc = told(["rustc", "--version"]).strip().removeprefix("rustc ")
+    packages = json.loads(told(["cargo", "metadata", "--no-deps", "--format-version", "1"]))["packages"]
     ours = next(package["version"] for package in packages if package["name"] == "onelight")
     return {"onelight": ours, "rustc": rustc, **found}
+
+
+def told(command):
+    """What a program prints."""
+    return subprocess.run(command, cwd=TOP, stdout=subprocess.PIPE, text=True, check=True).stdout

@@ -1,7 +1,7 @@
 """spectral-film-lut's side: its nearest equal look, Kodak 5207 printed on 2383, as a table.
 
-By itself it answers commands; with the name of a file it is the shortest program that makes that `.cube`, for timing a whole
-process.
+By itself it answers commands; with a file and a size it is the shortest program that makes that `.cube`, for timing a
+whole process.
 """
 
 import os

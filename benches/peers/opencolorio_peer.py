@@ -1,7 +1,7 @@
 """OpenColorIO's side: the chain that equals our plain form, from the same numbers.
 
-Its fastest form of it, measured beside a 65536-entry Lut1D for the shaper: a LogAffineTransform and a tetrahedral Lut3D,
-default optimisation, one processor for each type of output, whole pictures of packed RGBA.
+A LogAffineTransform and a tetrahedral Lut3D, default optimisation, one processor for each type of output, whole
+pictures of packed RGBA.
 """
 
 import math

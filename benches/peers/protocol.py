@@ -1,4 +1,4 @@
-"""Lines of words in, `ok` and numbers or `error` and a sentence out: how run.py speaks with every program it measures."""
+"""How run.py speaks with the programs it measures: lines of words in, `ok` and numbers `error` and a sentence out."""
 
 import os
 import subprocess
@@ -6,7 +6,7 @@ import sys
 
 
 def serve(commands):
-    """Answers the standard input until it ends. `commands`: word -> function of the further words that returns numbers."""
+    """Answers the standard input until it ends. `commands`: word -> function of the further words, returns numbers."""
     # Whatever a library prints must not get between the answers.
     answers, sys.stdout = sys.stdout, sys.stderr
     for line in sys.stdin:

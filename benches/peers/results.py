@@ -12,8 +12,8 @@ class Row:
     job: str
     peer: str
     threads: int
-    # "warm": done before in the same process. "cold": for the first time in a new process, from the table's numbers or the
-    # films on. "process": a whole program, from its start to its end.
+    # "warm": done before in the same process. "cold": for the first time in a new process, from the table's numbers or
+    # the films on. "process": a whole program, from its start to its end.
     state: str
     ours: typing.List[float]
     theirs: typing.List[float]
@@ -64,6 +64,7 @@ class Target:
     """What a row should reach."""
 
     what: str
+    # Job, peer, whether on one thread, state.
     row: typing.Tuple[str, str, bool, str]
     wanted: float
     # "faster": so many times as fast as the other at least. "cost": so many times the other's time at most.
@@ -72,14 +73,11 @@ class Target:
     def judge(self, rows):
         """Words for one line, and what JSON says."""
         job, peer, one_thread, state = self.row
-        found = None
+        found, met = None, None
         for row in rows:
-            if (row.job, row.peer, row.threads == 1 and row.state != "process", row.state) == (job, peer, one_thread, state):
+            if (row.job, row.peer, row.threads == 1, row.state) == (job, peer, one_thread, state):
                 found = row.ratio if self.kind == "faster" else 1 / row.ratio
-        if found is None:
-            met = None
-        else:
-            met = found >= self.wanted if self.kind == "faster" else found <= self.wanted
+                met = found >= self.wanted if self.kind == "faster" else found <= self.wanted
         return {"target": self.what, "wanted": self.wanted, "kind": self.kind, "found": found, "met": met}
 
 

@@ -1,16 +1,14 @@
 #!/usr/bin/env python3
-"""Runs OpenColorIO and spectral-film-lut beside ours: same machine, same numbers, turn by turn. README.md says how and why.
+"""Runs OpenColorIO and spectral-film-lut beside ours: same machine, same numbers, turn by turn. README.md says how.
 
 Prints a table and the targets; writes target/onelight/peers.json.
 """
 
 import argparse
-import contextlib
 import datetime
 import json
 import os
 import pathlib
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -18,19 +16,24 @@ import time
 
 import environment
 import results
-from protocol import Child, allowed_cpus, hold_to
+from protocol import Child, allowed_cpus
+from results import Row, Target
 
 OCIO, FILM_LUT, COPY, PLAIN = "OpenColorIO", "spectral-film-lut", "copy of the f32 picture", "our plain, f32 to f32"
+PLAIN_F32, PLAIN_U8 = "plain, f32 to f32", "plain, f32 to u8"
+STRUCTURED, DIRECT = "structured, f32 to f32", "direct, f32 to f32"
+BAKE, FILE = "bake 33^3, direct", "bake 33^3 to .cube"
 TARGETS = [
-    results.Target("plain f32 to f32, one thread, times OpenColorIO", ("plain, f32 to f32", OCIO, True, "warm"), 2.2, "faster"),
-    results.Target("plain f32 to RGBA8, one thread, times OpenColorIO", ("plain, f32 to u8", OCIO, True, "warm"), 3, "faster"),
-    results.Target("plain f32 to RGBA8, all cores, in copies", ("plain, f32 to u8", COPY, False, "warm"), 3, "cost"),
-    results.Target("structured f32 to f32, one thread, in plain", ("structured, f32 to f32", PLAIN, True, "warm"), 2, "cost"),
-    results.Target("direct f32 to f32, one thread, in plain", ("direct, f32 to f32", PLAIN, True, "warm"), 10, "cost"),
-    results.Target("the same, as aimed for", ("direct, f32 to f32", PLAIN, True, "warm"), 4, "cost"),
-    results.Target("bake 33^3, one thread, times spectral-film-lut", ("bake 33^3, direct", FILM_LUT, True, "warm"), 10, "faster"),
-    results.Target("whole process to .cube, times spectral-film-lut", ("bake 33^3 to .cube", FILM_LUT, False, "process"), 70, "faster"),
+    Target("plain f32 to f32, one thread, times OpenColorIO", (PLAIN_F32, OCIO, True, "warm"), 2.2, "faster"),
+    Target("plain f32 to RGBA8, one thread, times OpenColorIO", (PLAIN_U8, OCIO, True, "warm"), 3, "faster"),
+    Target("plain f32 to RGBA8, all cores, in copies", (PLAIN_U8, COPY, False, "warm"), 3, "cost"),
+    Target("structured f32 to f32, one thread, in plain", (STRUCTURED, PLAIN, True, "warm"), 2, "cost"),
+    Target("direct f32 to f32, one thread, in plain", (DIRECT, PLAIN, True, "warm"), 10, "cost"),
+    Target("the same, as aimed for", (DIRECT, PLAIN, True, "warm"), 4, "cost"),
+    Target("bake 33^3, one thread, times spectral-film-lut", (BAKE, FILM_LUT, True, "warm"), 10, "faster"),
+    Target("whole process to .cube, times spectral-film-lut", (FILE, FILM_LUT, False, "process"), 70, "faster"),
 ]
+PLAIN_JOBS = {"f32": PLAIN_F32, "u8": PLAIN_U8}
 # What the difference of two results may be: the same numbers, rounded on two ways.
 TOLERANCE = {"f32": (2e-4, ""), "u8": (1, "codes")}
 BAKE_SIZE = 33
@@ -47,6 +50,7 @@ class Run:
         self.cpus = allowed_cpus()
         self.rows = []
         self.notes = []
+        self.faults = []
         self.begin = time.monotonic()
         self.peer, self.xtask = environment.programs()
         self.python = environment.python()
@@ -85,7 +89,7 @@ class Run:
         return a, b
 
     def add(self, *row, **more):
-        self.rows.append(results.Row(*row, **more))
+        self.rows.append(Row(*row, **more))
         self.say(f"{results.table(self.rows[-1:]).splitlines()[1]}")
 
     # Pictures.
@@ -109,18 +113,18 @@ class Run:
                 result.unlink()
                 tolerance, unit = TOLERANCE[kind]
                 if not difference <= tolerance:
-                    self.notes.append(f"plain, f32 to {kind}: results differ by {difference:g}, expected at most {tolerance:g}")
-                self.add(f"plain, f32 to {kind}", OCIO, threads, "warm", *times, pixels, difference, unit)
+                    self.faults.append(f"{PLAIN_JOBS[kind]}: differs by {difference:g}, expected at most {tolerance:g}")
+                self.add(PLAIN_JOBS[kind], OCIO, threads, "warm", *times, pixels, difference, unit)
             copy = lambda: ours.ask("copy", 1)
             for kind in ["f32", "u8"]:
                 copy()
-                self.add(f"plain, f32 to {kind}", COPY, threads, "warm", *self.turns(apply("plain", kind), copy), pixels)
-            for form in ["structured", "direct"]:
+                self.add(PLAIN_JOBS[kind], COPY, threads, "warm", *self.turns(apply("plain", kind), copy), pixels)
+            for form, job in [("structured", STRUCTURED), ("direct", DIRECT)]:
                 self.say(f"making the {form} form")
                 ours.ask("build", form)
                 apply(form, "f32")()
                 times = self.turns(apply(form, "f32"), apply("plain", "f32"))
-                self.add(f"{form}, f32 to f32", PLAIN, threads, "warm", *times, pixels)
+                self.add(job, PLAIN, threads, "warm", *times, pixels)
 
     def cold_pictures(self, threads):
         for kind in ["f32", "u8"]:
@@ -132,7 +136,7 @@ class Run:
                 with self.opencolorio(threads) as theirs:
                     self.read(theirs, *self.shaper)
                     b.append(sum(theirs.ask("build", kind) + theirs.ask("apply", kind, 1)))
-            self.add(f"plain, f32 to {kind}", OCIO, threads, "cold", a, b, self.width * self.height)
+            self.add(PLAIN_JOBS[kind], OCIO, threads, "cold", a, b, self.width * self.height)
 
     # Tables.
 
@@ -143,24 +147,24 @@ class Run:
             # From nothing to a first table, in these two new processes.
             a = [sum(ours.ask("compile", 1) + ours.ask("bake", "direct", BAKE_SIZE, 1))]
             b = [sum(theirs.ask("compile") + theirs.ask("bake", BAKE_SIZE, 1))]
-            self.add(f"compile and bake {BAKE_SIZE}^3, direct", FILM_LUT, threads, "cold", a, b, nodes)
-            for way in ["direct", "reference"]:
+            self.add("compile and " + BAKE, FILM_LUT, threads, "cold", a, b, nodes)
+            for way, job in [("direct", BAKE), ("reference", "bake 33^3, reference")]:
                 ours.ask("bake", way, BAKE_SIZE, 1)
                 times = self.turns(
                     lambda: ours.ask("bake", way, BAKE_SIZE, 1), lambda: theirs.ask("bake", BAKE_SIZE, 1), 7
                 )
                 (worst,) = ours.ask("misses", way, BAKE_SIZE)
-                self.add(f"bake {BAKE_SIZE}^3, {way}", FILM_LUT, threads, "warm", *times, nodes, worst, "dE, node")
+                self.add(job, FILM_LUT, threads, "warm", *times, nodes, worst, "dE, node")
             together = lambda: [sum(ours.ask("compile", 1) + ours.ask("bake", "direct", BAKE_SIZE, 1))]
             times = self.turns(together, lambda: theirs.ask("bake", BAKE_SIZE, 1), 5)
-            self.add(f"compile and bake {BAKE_SIZE}^3, direct", FILM_LUT, threads, "warm", *times, nodes)
+            self.add("compile and " + BAKE, FILM_LUT, threads, "warm", *times, nodes)
 
     def processes(self):
         self.say("whole processes, from the command to the file")
         options = subprocess.run([self.xtask, "bake", "--help"], stdout=subprocess.PIPE, text=True, check=True).stdout
         quick = ["--quick"] if "--quick" in options else []
         if not quick:
-            self.notes.append("bake has no --quick: the whole process is the usual bake, which certifies its table and draws a preview")
+            self.notes.append("bake has no --quick here: the usual bake, which certifies and draws a preview too")
         out = self.folder / "bake"
         ours = [self.xtask, "bake", *quick, "--size", str(BAKE_SIZE), "--out", str(out)]
         file = self.folder / "theirs.cube"
@@ -169,7 +173,7 @@ class Run:
         for _ in range(self.fresh):
             a.append(self.seconds(ours, out / "look.cube"))
             b.append(self.seconds(theirs, file))
-        self.add(f"bake {BAKE_SIZE}^3 to .cube", FILM_LUT, len(self.cpus), "process", a, b, BAKE_SIZE**3)
+        self.add(FILE, FILM_LUT, len(self.cpus), "process", a, b, BAKE_SIZE**3)
 
     def seconds(self, command, file):
         """Nanoseconds of a program that writes a file."""
@@ -193,9 +197,11 @@ class Run:
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--quick", action="store_true", help="a small picture and few turns: whether it runs, not how fast")
+    parser.add_argument("--quick", action="store_true", help="a small picture, few turns: whether it runs")
     arguments = parser.parse_args()
 
+    # Before building, which loads the machine itself.
+    load = list(os.getloadavg()) if hasattr(os, "getloadavg") else None
     environment.OUTPUT.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=environment.OUTPUT, prefix="peers-") as folder:
         run = Run(arguments, pathlib.Path(folder))
@@ -206,22 +212,22 @@ def main():
             "quick": arguments.quick,
             "picture": {"width": run.width, "height": run.height, "channels": "RGBA"},
         }
-        load = list(os.getloadavg()) if hasattr(os, "getloadavg") else None
         run.all()
     judged = [target.judge(run.rows) for target in TARGETS]
-    report |= {"load_before": load, "rows": [row.json() for row in run.rows], "targets": judged, "notes": run.notes}
+    notes = run.notes + run.faults
+    report |= {"load_before": load, "rows": [row.json() for row in run.rows], "targets": judged, "notes": notes}
     path = environment.OUTPUT / "peers.json"
     path.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
 
-    machine, versions = report["machine"], report["versions"]
-    print(f"{machine['cpu']}, {machine['cores']} cores; {', '.join(f'{k} {v}' for k, v in versions.items())}; {report['date']}")
+    machine, versions = report["machine"], ", ".join(f"{name} {v}" for name, v in report["versions"].items())
+    print(f"{machine['cpu']}, {machine['cores']} cores; {report['date']}\n{versions}")
     if load and load[0] > 0.5:
         print(f"Other programs were running: load {load[0]:.1f} before the first turn.")
     print(f"{run.width}x{run.height} RGBA, medians of turns\n\n{results.table(run.rows)}\n\n{results.verdicts(judged)}")
-    for note in run.notes:
+    for note in notes:
         print(f"note: {note}")
     print(f"\n{path.relative_to(environment.TOP)}")
-    return 1 if any("differ by" in note for note in run.notes) else 0
+    return 1 if run.faults else 0
 
 
 if __name__ == "__main__":

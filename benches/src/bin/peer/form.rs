@@ -1,6 +1,6 @@
 use std::error::Error;
 
-use onelight::{DirectSettings, Reference, StructuredSettings};
+use onelight::{DirectSettings, Nodes, Reference, StructuredSettings};
 use onelight_benches::{PLAIN_SIZE, shaper};
 use onelight_lut::{
     DirectForm, Interpolation, Lut3d, PixelMap, Pixels, PixelsMut, PlainLut, Sample, StructuredLut, bake,
@@ -41,10 +41,14 @@ impl Form {
     }
 }
 
+/// The grid of wavelengths for baking: within 0.02 dE of the film.
+const GRID_NM: usize = 5;
+
 /// How the nodes of a plain table are computed.
 #[derive(Clone, Copy)]
 pub(crate) enum Way {
     Reference,
+    /// Through a direct form whose making takes no time.
     Direct,
 }
 
@@ -63,7 +67,7 @@ impl Way {
         Ok(match self {
             Self::Reference => bake(size, &shaper, |rgb| film.develop(rgb), |_| {}),
             Self::Direct => {
-                let direct = film.direct(&DirectSettings::default())?;
+                let direct = film.direct(&DirectSettings { nodes: Nodes::Grid { step_nm: GRID_NM } })?;
                 bake(size, &shaper, |rgb| direct.apply(rgb.map(|v| v as f32)).map(f64::from), |_| {})
             }
         }?)
