@@ -11,7 +11,7 @@ use onelight_lut::DirectForm;
 use crate::error::{Error, Kind};
 use crate::reference::Reference;
 use stages::Stages;
-use training::Training;
+use training::{Probes, Training};
 
 /// Where the exponentials of a direct form come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,6 +22,9 @@ pub enum Nodes {
         /// Distance in nm: a whole number that divides the ranges of the film's grids, such as 1, 2, 5, 10 or 20.
         step_nm: usize,
     },
+    /// The coarsest of the grids by 10, 5, 2 and 1 nm with which none of a few hundred colours differs from the film by more than
+    /// this (CIEDE2000), or that by 1 nm: what tables are baked with.
+    GridUnderMaxDe(f64),
     /// So many exponentials, fitted to the film over all that light can reach: a tenth of a second. Rates and weights are free;
     /// they belong to no wavelength, and weights may be negative.
     Counts {
@@ -71,6 +74,7 @@ impl Reference {
         let stages = Stages::of(self);
         match settings.nodes {
             Nodes::Grid { step_nm } => self.direct_of(&stages.on_grid(step_nm)?),
+            Nodes::GridUnderMaxDe(limit) => grid_under(self, &stages, limit),
             Nodes::Counts { projection, duplication } => {
                 check_count("projection", projection)?;
                 if stages.duplication.is_some() {
@@ -81,6 +85,18 @@ impl Reference {
             Nodes::UnderMaxDe(limit) => fewest::under(self, &stages, limit),
         }
     }
+}
+
+fn grid_under(film: &Reference, stages: &Stages, limit: f64) -> Result<DirectForm, Error> {
+    check_limit(limit)?;
+    let probes = Probes::new(film)?;
+    for step_nm in [10, 5, 2] {
+        let direct = film.direct_of(&stages.on_grid(step_nm)?)?;
+        if probes.largest_miss(&direct) <= limit {
+            return Ok(direct);
+        }
+    }
+    film.direct_of(stages)
 }
 
 fn check_count(stage: &str, found: usize) -> Result<(), Error> {
