@@ -3,15 +3,12 @@
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use onelight::{DirectSettings, Nodes, Reference, StructuredSettings};
+use onelight::{DirectSettings, Reference, StructuredSettings};
 use onelight_benches::{NEGATIVE, film, shaper};
-use onelight_lut::bake;
+use onelight_lut::{bake, bake_form};
 
 /// Nodes along each side.
 const SIZES: [usize; 4] = [16, 32, 33, 64];
-
-/// The direct form to bake with.
-const GRID: DirectSettings = DirectSettings { nodes: Nodes::Grid { step_nm: 5 } };
 
 fn negative() -> Reference {
     film(NEGATIVE).expect("a built-in process compiles")
@@ -19,7 +16,8 @@ fn negative() -> Reference {
 
 fn plain(c: &mut Criterion) {
     let (film, shaper) = (negative(), shaper().expect("its numbers are in range"));
-    let direct = film.direct(&GRID).expect("a built-in film is finite");
+    let form = film.direct(&DirectSettings::BAKING).expect("a built-in film is finite");
+    let at = |coordinates: [f64; 3]| coordinates.map(|t| shaper.decode(t));
     let mut group = c.benchmark_group("bake a plain table, all threads");
     group.sample_size(10).warm_up_time(Duration::from_millis(200)).measurement_time(Duration::from_secs(1));
     for size in SIZES {
@@ -27,9 +25,9 @@ fn plain(c: &mut Criterion) {
         group.bench_function(BenchmarkId::new("reference", size), |b| {
             b.iter(|| bake(size, &shaper, |rgb| film.develop(rgb), |_| {}));
         });
-        group.bench_function(BenchmarkId::new("direct", size), |b| {
-            let look = |rgb: [f64; 3]| direct.apply(rgb.map(|v| v as f32)).map(f64::from);
-            b.iter(|| bake(size, &shaper, look, |_| {}));
+        group.bench_function(BenchmarkId::new("usual", size), |b| b.iter(|| film.bake(size, at)));
+        group.bench_function(BenchmarkId::new("usual, its form made before", size), |b| {
+            b.iter(|| bake_form(size, at, &form));
         });
     }
 }
@@ -48,7 +46,7 @@ fn direct(c: &mut Criterion) {
     let film = negative();
     let mut group = c.benchmark_group("make the direct form, all threads");
     group.sample_size(10).warm_up_time(Duration::from_millis(200)).measurement_time(Duration::from_secs(1));
-    for (name, settings) in [("fitted", DirectSettings::default()), ("grid", GRID)] {
+    for (name, settings) in [("fitted", DirectSettings::default()), ("to bake with", DirectSettings::BAKING)] {
         group.bench_function(name, |b| b.iter(|| film.direct(&settings)));
     }
 }

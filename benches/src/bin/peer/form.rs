@@ -1,9 +1,9 @@
 use std::error::Error;
 
-use onelight::{DirectSettings, Nodes, Reference, StructuredSettings};
+use onelight::{DirectSettings, Reference, StructuredSettings};
 use onelight_benches::{PLAIN_SIZE, shaper};
 use onelight_lut::{
-    DirectForm, Interpolation, Lut3d, PixelMap, Pixels, PixelsMut, PlainLut, Sample, StructuredLut, bake,
+    DirectForm, Interpolation, Lut3d, PixelMap, Pixels, PixelsMut, PlainLut, Sample, StructuredLut, bake, bake_form,
 };
 
 /// One of the forms.
@@ -41,35 +41,34 @@ impl Form {
     }
 }
 
-/// The grid of wavelengths for baking: within 0.02 dE of the film.
-const GRID_NM: usize = 5;
-
 /// How the nodes of a plain table are computed.
-#[derive(Clone, Copy)]
 pub(crate) enum Way {
+    /// Each by the exact film.
     Reference,
-    /// Through a direct form whose making takes no time.
-    Direct,
+    /// As `Reference::bake` does it, which makes a direct form first.
+    Usual,
+    /// Through that form, made before.
+    Form(Box<DirectForm>),
 }
 
 impl Way {
-    pub(crate) fn parse(word: &str) -> Result<Self, Box<dyn Error>> {
+    pub(crate) fn parse(word: &str, film: &Reference) -> Result<Self, Box<dyn Error>> {
         match word {
             "reference" => Ok(Self::Reference),
-            "direct" => Ok(Self::Direct),
-            _ => Err(format!("found {word}, expected reference or direct").into()),
+            "usual" => Ok(Self::Usual),
+            "form" => Ok(Self::Form(Box::new(film.direct(&DirectSettings::BAKING)?))),
+            _ => Err(format!("found {word}, expected reference, usual or form").into()),
         }
     }
 
-    /// A plain table; making the direct form is part of what that way costs.
-    pub(crate) fn bake(self, film: &Reference, size: usize) -> Result<Lut3d, Box<dyn Error>> {
+    /// A plain table.
+    pub(crate) fn bake(&self, film: &Reference, size: usize) -> Result<Lut3d, Box<dyn Error>> {
         let shaper = shaper()?;
+        let at = |coordinates: [f64; 3]| coordinates.map(|t| shaper.decode(t));
         Ok(match self {
-            Self::Reference => bake(size, &shaper, |rgb| film.develop(rgb), |_| {}),
-            Self::Direct => {
-                let direct = film.direct(&DirectSettings { nodes: Nodes::Grid { step_nm: GRID_NM } })?;
-                bake(size, &shaper, |rgb| direct.apply(rgb.map(|v| v as f32)).map(f64::from), |_| {})
-            }
-        }?)
+            Self::Reference => bake(size, &shaper, |rgb| film.develop(rgb), |_| {})?,
+            Self::Usual => film.bake(size, at)?,
+            Self::Form(form) => bake_form(size, at, form.as_ref())?,
+        })
     }
 }

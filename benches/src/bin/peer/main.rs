@@ -11,7 +11,7 @@
 //! | `copy RUNS` | copies the picture | time of each run |
 //! | `save TYPE FILE` | writes the last result of that type | |
 //! | `compile RUNS` | compiles the film | time of each run |
-//! | `bake WAY SIZE RUNS` | a plain table by the `reference`, or by making and using the `direct` form | time of each run |
+//! | `bake WAY SIZE RUNS` | a plain table by the `reference`, as `usual`, or through the usual `form` made before | time of each run |
 //! | `misses WAY SIZE` | the same | largest CIEDE2000 from the reference at a node |
 
 mod form;

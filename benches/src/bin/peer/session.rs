@@ -63,11 +63,14 @@ impl Session {
                 })
             }
             ["bake", way, size, runs] => {
-                let (way, size) = (Way::parse(way)?, size.parse()?);
                 let film = known(&mut self.film)?;
+                let (way, size) = (Way::parse(way, film)?, size.parse()?);
                 times(self.pool.as_ref(), runs.parse()?, || way.bake(film, size).map(drop))
             }
-            ["misses", way, size] => misses(known(&mut self.film)?, Way::parse(way)?, size.parse()?),
+            ["misses", way, size] => {
+                let film = known(&mut self.film)?;
+                misses(film, &Way::parse(way, film)?, size.parse()?)
+            }
             _ => Err("no such command".into()),
         }
     }
@@ -133,7 +136,7 @@ fn copy(pool: Option<&ThreadPool>, from: &[f32], to: &mut [f32], runs: usize) ->
 }
 
 /// How far a table's nodes are from the exact film.
-fn misses(film: &Reference, way: Way, size: usize) -> Answer {
+fn misses(film: &Reference, way: &Way, size: usize) -> Answer {
     let (table, exact) = (way.bake(film, size)?, Way::Reference.bake(film, size)?);
     let (difference, coding) = (film.difference()?, film.coding());
     let linear = |rgb: &[f32; 3]| rgb.map(|v| coding.decode(f64::from(v)));
