@@ -53,7 +53,7 @@ pub struct DirectSettings {
 impl Default for DirectSettings {
     /// What stays below 0.1 dE for the films of the README.
     fn default() -> Self {
-        Self { nodes: Nodes::Counts { projection: 9, duplication: 5 } }
+        Self { nodes: Nodes::Counts { projection: 10, duplication: 5 } }
     }
 }
 
