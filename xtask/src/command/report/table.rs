@@ -7,7 +7,7 @@ use super::measure::{Look, Row};
 use super::outside::Peer;
 use super::stopwatch::Timing;
 use super::studies::{CurveRow, ExposureRow, GridRow, Measured};
-use super::text::{bytes, escaped, figure};
+use super::text::{bytes, escaped, figure, plain};
 
 /// A cell: what is written, and the number that it is sorted by.
 pub(super) enum Cell {
@@ -179,7 +179,8 @@ pub(super) fn growth(caption: &str, x: &str, measured: &[Measured]) -> String {
         .enumerate()
         .map(|(i, (value, _))| {
             let found = measured.iter().map(|m| m.points.get(i).map_or_else(Cell::none, |p| Cell::figure(p.1)));
-            [Cell::figure(*value)].into_iter().chain(found).collect()
+            let value = if value.fract() == 0.0 { Cell::Number(*value, plain(*value)) } else { Cell::figure(*value) };
+            [value].into_iter().chain(found).collect()
         })
         .collect();
     table(caption, &[&[x][..], &names].concat(), &rows)

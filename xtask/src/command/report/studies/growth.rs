@@ -39,7 +39,7 @@ pub(in crate::command::report) struct Growth {
 }
 
 /// Seconds that one form may take for one size of picture, all its rounds together.
-const LONGEST: f64 = 6.0;
+const LONGEST: f64 = 10.0;
 /// Rows of the frame in a strip.
 const STRIP_ROWS: usize = 64;
 
@@ -88,7 +88,7 @@ fn picture(forms: &[&Made], frame: &Frame, scope: Scope) -> Result<Vec<Measured>
     let pool = pool(1)?;
     let [width, height] = frame.size();
     let rows_of_strip = STRIP_ROWS.min(height);
-    let mut buffer = vec![0.0; width * rows_of_strip * 3];
+    let mut buffer = vec![1.0; width * rows_of_strip * 3];
     let mut measured: Vec<Vec<(f64, f64)>> = vec![Vec::new(); forms.len()];
     for &megapixels in megapixels {
         let rows = ((1e6 * megapixels) as usize).div_ceil(width);

@@ -98,7 +98,7 @@ impl<'a> Colours<'a> {
 /// Rounds of each timing.
 pub(super) fn rounds(scope: Scope) -> usize {
     match scope {
-        Scope::Full => 9,
+        Scope::Full => 15,
         Scope::Quick => 3,
     }
 }
