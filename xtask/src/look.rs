@@ -67,6 +67,11 @@ impl LookArguments {
         Ok(process)
     }
 
+    /// Whether the command line says which films to use.
+    pub(crate) fn names_film(&self) -> bool {
+        self.look.is_some() || self.camera.is_some()
+    }
+
     /// Whether the command line says what the input's primaries are: only that weighs more than the input's own word.
     pub(crate) fn names_input_space(&self) -> bool {
         self.input_space.is_some()

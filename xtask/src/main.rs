@@ -39,6 +39,8 @@ enum Command {
     Certify(command::certify::Arguments),
     /// Develop a picture: scene-linear EXR (or TIFF, PNG) in, film out
     Develop(command::develop::Arguments),
+    /// Measure every form: speed against error as a page with plots and tables
+    Report(command::report::Arguments),
     /// List the stocks, or show one with a plot of its curves
     Stocks(command::stocks::Arguments),
     /// Render the fixture scene, and measure what going through RGB costs
@@ -79,6 +81,7 @@ fn run(command: Command) -> Result<Report> {
         Command::Bake(arguments) => command::bake::run(&arguments),
         Command::Certify(arguments) => command::certify::run(&arguments),
         Command::Develop(arguments) => command::develop::run(&arguments),
+        Command::Report(arguments) => command::report::run(&arguments),
         Command::Stocks(arguments) => command::stocks::run(&arguments),
         Command::Fixtures(arguments) => command::fixtures::run(&arguments),
         Command::Tidy(arguments) => command::tidy::run(&arguments),

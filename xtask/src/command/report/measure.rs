@@ -1,0 +1,200 @@
+//! Speed and error of every form of a look.
+
+use anyhow::Result;
+use onelight::lut::{Certificate, Law, Search};
+use onelight::{Process, Reference, Word, WorkingSpace, stock};
+use serde::Serialize;
+
+use super::forms::{self, Kind, Made, Scope};
+use super::frame::Frame;
+use super::stopwatch::{Pass, Timing, interleaved, mapping};
+use crate::certificate::{Measure, to_six_stops};
+use crate::progress::bar;
+
+/// A form and what it is worth.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct Row {
+    pub(super) kind: Kind,
+    /// What tells it from others of its kind: `32, f16`.
+    pub(super) detail: String,
+    pub(super) size: Option<usize>,
+    pub(super) storage: Option<&'static str>,
+    pub(super) coding: Option<&'static str>,
+    /// Exponentials of the print's exposure (0 for reversal film) and of the projection.
+    pub(super) nodes: Option<[usize; 2]>,
+    /// Of all tables and curves; `None` for the reference.
+    pub(super) bytes: Option<usize>,
+    /// On one thread.
+    pub(super) time: Timing,
+    pub(super) error: Error,
+}
+
+/// CIEDE2000 from the reference.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+pub(super) struct Error {
+    pub(super) mean: f64,
+    /// The mean of the worst of five bands of four stops.
+    pub(super) worst_band: f64,
+    pub(super) p99: f64,
+    /// The largest found, followed uphill.
+    pub(super) max: f64,
+    /// The same over the bands up to +6 stops, not followed uphill.
+    pub(super) mean_to_six: f64,
+    pub(super) max_to_six: f64,
+}
+
+impl Error {
+    fn of(certificate: &Certificate) -> Self {
+        let (mean_to_six, max_to_six) = to_six_stops(certificate);
+        Self {
+            mean: certificate.overall.mean,
+            worst_band: certificate.headline_mean,
+            p99: certificate.overall.p99,
+            max: certificate.max_found,
+            mean_to_six,
+            max_to_six,
+        }
+    }
+}
+
+impl Row {
+    /// `structured 32, f16`
+    pub(super) fn name(&self) -> String {
+        format!("{} {}", self.kind.name(), self.detail).trim_end().to_owned()
+    }
+}
+
+/// A look with all its rows.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct Look {
+    /// `kodak-5207_kodak-2383`
+    pub(super) name: String,
+    /// The films by their makers' names, and the aim.
+    pub(super) title: String,
+    pub(super) process: Process,
+    /// The exact film last.
+    pub(super) rows: Vec<Row>,
+}
+
+/// A process with its film and its forms, before anything is timed.
+pub(super) struct Prepared {
+    pub(super) process: Process,
+    title: String,
+    pub(super) film: Reference,
+    pub(super) made: Vec<Made>,
+    errors: Vec<Error>,
+}
+
+/// Colours that errors are measured on.
+pub(super) fn law(scope: Scope) -> Law {
+    let count = match scope {
+        Scope::Full => 1 << 17,
+        Scope::Quick => 1 << 10,
+    };
+    Law { count, ..Law::default() }
+}
+
+impl Prepared {
+    /// Makes all forms of a process and measures their errors.
+    pub(super) fn new(process: &Process, scope: Scope) -> Result<Self> {
+        let film = process.compile()?;
+        let progress = bar("making forms", forms::steps(scope));
+        let made = forms::all(&film, process, scope, || progress.inc(1))?;
+        progress.finish_and_clear();
+        let measure = Measure::new(&film, process)?;
+        let progress = bar("certifying", 1 + made.len() as u64);
+        let samples = measure.samples(&law(scope), WorkingSpace::Srgb)?;
+        progress.inc(1);
+        let mut errors = Vec::new();
+        for made in &made {
+            let certificate = measure.certify(&samples, |rgb| made.form.apply(rgb), Search::Ascent)?;
+            errors.push(Error::of(&certificate));
+            progress.inc(1);
+        }
+        progress.finish_and_clear();
+        Ok(Self { process: process.clone(), title: title(process)?, film, made, errors })
+    }
+
+    /// What to time: one pass for each group of forms that share a time, then the film itself.
+    fn passes<'a>(&'a self, frame: &'a Frame) -> Vec<Pass<'a>> {
+        let mut passes: Vec<Pass> = Vec::new();
+        for made in &self.made {
+            if made.timed == passes.len() {
+                passes.push(mapping(&made.form, frame));
+            }
+        }
+        passes.push(developing(&self.film, frame));
+        passes
+    }
+
+    fn look(&self, times: &[Timing]) -> Look {
+        let rows = self.made.iter().zip(&self.errors).filter_map(|(made, &error)| {
+            Some(Row {
+                kind: made.kind,
+                detail: made.detail.clone(),
+                size: made.size,
+                storage: made.storage.map(Word::word),
+                coding: made.coding.map(Word::word),
+                nodes: made.nodes,
+                bytes: Some(made.bytes),
+                time: *times.get(made.timed)?,
+                error,
+            })
+        });
+        let reference = times.last().map(|&time| Row {
+            kind: Kind::Reference,
+            detail: "float64, 1 nm".to_owned(),
+            size: None,
+            storage: None,
+            coding: None,
+            nodes: None,
+            bytes: None,
+            time,
+            error: Error::default(),
+        });
+        let mut rows: Vec<Row> = rows.chain(reference).collect();
+        rows.sort_by_key(|row| row.kind);
+        Look { name: self.process.name(), title: self.title.clone(), process: self.process.clone(), rows }
+    }
+}
+
+/// `KODAK VISION3 250D 5207 on KODAK 2383, neutral aim`
+fn title(process: &Process) -> Result<String> {
+    let camera = stock(&process.camera)?;
+    let print = process.print.as_deref().map(stock).transpose()?;
+    let on = print.map_or_else(String::new, |print| format!(" on {}", print.name()));
+    Ok(format!("{}{on}, {} aim", camera.name(), process.aim.word()))
+}
+
+/// Times all forms of all looks together; the last time is that of a copy.
+pub(super) fn timed(looks: &[Prepared], frame: &Frame, rounds: usize) -> Result<(Vec<Look>, Timing)> {
+    let mut passes: Vec<Pass> = Vec::new();
+    let mut ranges = Vec::new();
+    for look in looks {
+        let from = passes.len();
+        passes.extend(look.passes(frame));
+        ranges.push(from..passes.len());
+    }
+    passes.push(super::stopwatch::copying(frame));
+    let progress = bar("timing", rounds as u64);
+    let times = interleaved(&passes, frame, 1, rounds, || progress.inc(1))?;
+    progress.finish_and_clear();
+    let measured = looks.iter().zip(ranges).map(|(look, range)| look.look(&times[range])).collect();
+    Ok((measured, times[times.len() - 1]))
+}
+
+/// The exact film, pixel by pixel.
+fn developing<'a>(film: &'a Reference, frame: &'a Frame) -> Pass<'a> {
+    Box::new(move |first, every, buffer| {
+        let [width, height] = frame.size();
+        let rows = (first % every..height).step_by(every);
+        let count = rows.len();
+        for (to, y) in buffer.chunks_exact_mut(width * 3).zip(rows) {
+            for (to, from) in to.chunks_exact_mut(3).zip(frame.row(y).chunks_exact(3)) {
+                let shown = film.develop([from[0], from[1], from[2]].map(f64::from));
+                to.iter_mut().zip(shown).for_each(|(to, v)| *to = v as f32);
+            }
+        }
+        Ok(count * width)
+    })
+}
