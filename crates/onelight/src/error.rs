@@ -12,6 +12,7 @@ pub(crate) enum Kind {
     Lut(onelight_lut::Error),
     Look { file: String, line: usize, problem: String },
     Word { what: &'static str, found: String, expected: String },
+    Setting { what: String, found: f64, expected: String },
     UnknownStock { found: String, nearest: Option<&'static str> },
     Contradiction(String),
 }
@@ -86,6 +87,7 @@ impl fmt::Display for Error {
             Kind::Lut(error) => error.fmt(f),
             Kind::Look { file, line, problem } => write!(f, "{file}:{line}: {problem}"),
             Kind::Word { what, found, expected } => write!(f, "{what}: found {found:?}, expected {expected}"),
+            Kind::Setting { what, found, expected } => write!(f, "{what}: found {found}, expected {expected}"),
             Kind::UnknownStock { found, nearest: Some(nearest) } => {
                 write!(f, "no stock is called {found:?}; the nearest is {nearest} (`cargo xtask stocks` lists all)")
             }

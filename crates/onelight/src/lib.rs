@@ -17,6 +17,7 @@
 //! Files (all text comes in as `&str`), grain and halation. Keys in square brackets are resolved in REFERENCES.md at the top
 //! of the repository.
 
+mod direct;
 mod error;
 mod process;
 mod reference;
@@ -24,6 +25,7 @@ mod stocks;
 mod structured;
 mod word;
 
+pub use direct::{DirectSettings, Nodes};
 pub use error::Error;
 pub use onelight_film as film;
 pub use onelight_film::{DyeModel, Matching, Stock, StockKind, Tail};

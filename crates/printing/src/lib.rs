@@ -41,7 +41,7 @@ mod printer;
 mod projection;
 
 pub use aim::{Aim, NEUTRAL_DENSITY, print_mid_grey, print_target, reversal_target};
-pub use duplication::{Duplication, LitDuplication};
+pub use duplication::{Duplication, LitDuplication, SpectralRow};
 pub use error::Error;
 pub use filter::{HeatGlass, Wratten};
 pub use printer::{Infrared, Printer, PrinterLights};
