@@ -1,8 +1,8 @@
 use onelight_lut::DirectForm;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayoutDescriptor, BindGroupLayoutEntry, BindingResource,
-    BindingType, BufferBindingType, CommandEncoder, ComputePassDescriptor, ComputePipeline, Device, Queue, ShaderStages,
-    StorageTextureAccess, TextureViewDescriptor, TextureViewDimension,
+    BindingType, BufferBindingType, CommandEncoder, ComputePassDescriptor, ComputePipeline, Device, Queue,
+    ShaderStages, StorageTextureAccess, TextureViewDescriptor, TextureViewDimension,
 };
 
 use crate::bound::{BoundLook, LookSettings};
@@ -92,7 +92,8 @@ impl TableBake {
     /// Fills the table.
     pub fn encode(&self, encoder: &mut CommandEncoder) {
         let groups = self.size.div_ceil(GROUP);
-        let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor { label: Some("onelight bake"), ..Default::default() });
+        let mut pass =
+            encoder.begin_compute_pass(&ComputePassDescriptor { label: Some("onelight bake"), ..Default::default() });
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, self.look.bind_group(), &[]);
         pass.set_bind_group(1, &self.into, &[]);

@@ -2,10 +2,10 @@ use half::f16;
 use onelight_lut::{Lut1d, Lut3d, Storage};
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry,
-    BindingResource, BindingType, Buffer, BufferBindingType, BufferDescriptor, BufferUsages, Device, Extent3d, Features,
-    FilterMode, Origin3d, Queue, SamplerBindingType, SamplerDescriptor, ShaderStages, TexelCopyBufferLayout,
-    TexelCopyTextureInfo, Texture, TextureAspect, TextureDescriptor, TextureDimension, TextureFormat, TextureSampleType,
-    TextureUsages, TextureViewDescriptor, TextureViewDimension,
+    BindingResource, BindingType, Buffer, BufferBindingType, BufferDescriptor, BufferUsages, Device, Extent3d,
+    Features, FilterMode, Origin3d, Queue, SamplerBindingType, SamplerDescriptor, ShaderStages, TexelCopyBufferLayout,
+    TexelCopyTextureInfo, Texture, TextureAspect, TextureDescriptor, TextureDimension, TextureFormat,
+    TextureSampleType, TextureUsages, TextureViewDescriptor, TextureViewDimension,
 };
 
 use crate::error::{Error, Kind};
@@ -244,10 +244,8 @@ impl Table {
 
 fn write(queue: &Queue, texture: &Texture, [x, y, z]: [u32; 3], size: [u32; 3], texel: u32, bytes: &[u8]) {
     let [width, height, depth_or_array_layers] = size;
-    let to =
-        TexelCopyTextureInfo { texture, mip_level: 0, origin: Origin3d { x, y, z }, aspect: TextureAspect::All };
-    let layout =
-        TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(width * texel), rows_per_image: Some(height) };
+    let to = TexelCopyTextureInfo { texture, mip_level: 0, origin: Origin3d { x, y, z }, aspect: TextureAspect::All };
+    let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(width * texel), rows_per_image: Some(height) };
     queue.write_texture(to, bytes, layout, Extent3d { width, height, depth_or_array_layers });
 }
 
@@ -313,7 +311,8 @@ fn bind_group(
         points.as_ref().map(BindingResource::TextureView),
         sampler.as_ref().map(BindingResource::Sampler),
     ];
-    let entries = (0..).zip(resources).filter_map(|(binding, resource)| Some(BindGroupEntry { binding, resource: resource? }));
+    let entries =
+        (0..).zip(resources).filter_map(|(binding, resource)| Some(BindGroupEntry { binding, resource: resource? }));
     let entries: Vec<_> = entries.collect();
     device.create_bind_group(&BindGroupDescriptor { label: Some("onelight look"), layout, entries: &entries })
 }

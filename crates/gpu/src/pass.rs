@@ -5,8 +5,8 @@ use wgpu::{
     BindingResource, BindingType, Color, ColorTargetState, CommandEncoder, ComputePassDescriptor, ComputePipeline,
     ComputePipelineDescriptor, Device, FragmentState, LoadOp, Operations, PipelineLayoutDescriptor, Queue, RenderPass,
     RenderPassColorAttachment, RenderPassDescriptor, RenderPipeline, RenderPipelineDescriptor, ShaderModule,
-    ShaderModuleDescriptor, ShaderSource, ShaderStages, StorageTextureAccess, StoreOp, TextureFormat, TextureSampleType,
-    TextureUsages, TextureView, TextureViewDimension, VertexState,
+    ShaderModuleDescriptor, ShaderSource, ShaderStages, StorageTextureAccess, StoreOp, TextureFormat,
+    TextureSampleType, TextureUsages, TextureView, TextureViewDimension, VertexState,
 };
 
 use crate::MAX_SIDE;
@@ -103,7 +103,12 @@ impl FilmPass {
     /// # Errors
     /// If the textures differ in size, are larger than [`MAX_SIDE`], or `target` has another format than the pass was made
     /// for. Nothing is encoded then.
-    pub fn encode(&self, encoder: &mut CommandEncoder, source: &TextureView, target: &TextureView) -> Result<(), Error> {
+    pub fn encode(
+        &self,
+        encoder: &mut CommandEncoder,
+        source: &TextureView,
+        target: &TextureView,
+    ) -> Result<(), Error> {
         self.check(source, target)?;
         match &self.compute {
             Some(compute) => compute.encode(&self.device, &self.look, encoder, source, target),
@@ -260,7 +265,8 @@ impl Computed {
             ],
         });
         let size = target.texture();
-        let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor { label: Some("onelight"), timestamp_writes: None });
+        let mut pass =
+            encoder.begin_compute_pass(&ComputePassDescriptor { label: Some("onelight"), timestamp_writes: None });
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, look.bind_group(), &[]);
         pass.set_bind_group(1, &textures, &[]);

@@ -101,9 +101,13 @@ pub(crate) fn bake(table: TextureFormat) -> String {
 
 fn stored(target: Target) -> &'static str {
     match target {
+        Target::Unorm(TextureFormat::Rgb10a2Unorm) => include_str!("shader/target/unorm10.wgsl"),
         Target::Unorm(_) => include_str!("shader/target/unorm.wgsl"),
         Target::Srgb(_) => include_str!("shader/target/srgb.wgsl"),
         Target::Half => include_str!("shader/target/half.wgsl"),
         Target::Single => include_str!("shader/target/single.wgsl"),
     }
 }
+
+#[cfg(test)]
+mod translation;

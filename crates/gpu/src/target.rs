@@ -45,8 +45,7 @@ impl Target {
 
     /// By compute where WebGPU lets shaders write the format and the device computes at all.
     pub(crate) fn way(self, device: &Device) -> Way {
-        let writable =
-            matches!(self, Self::Unorm(TextureFormat::Rgba8Unorm) | Self::Half | Self::Single);
+        let writable = matches!(self, Self::Unorm(TextureFormat::Rgba8Unorm) | Self::Half | Self::Single);
         if writable && device.limits().max_compute_invocations_per_workgroup >= 64 { Way::Compute } else { Way::Draw }
     }
 }

@@ -4,8 +4,8 @@
 //! integers, matrices as three columns of four words, the fourth unused.
 
 use onelight_lut::{
-    Decode, DirectForm, DirectPrint, ExponentialSum, Interpolation, Lut1d, Mix, PlainLut, PowerCoding, Rows, ShaperKind,
-    StructuredLut,
+    Decode, DirectForm, DirectPrint, ExponentialSum, Interpolation, Lut1d, Mix, PlainLut, PowerCoding, Rows,
+    ShaperKind, StructuredLut,
 };
 
 use crate::error::{Error, Kind};
