@@ -15,8 +15,8 @@ use crate::picture::{Way, develop, halves, source};
 const UNORM8: f32 = 0.5 + 255e-5 + 0.01;
 const UNORM10: f32 = 0.5 + 1023e-5 + 0.04;
 
-/// Through an sRGB view: another conversion in the card, which may be off by 0.6 of a code before it rounds.
-const SRGB8: f32 = 1.1;
+/// Through an sRGB view: another conversion in the card, which Vulkan allows an error of 0.6 of a code, rounding included, and lavapipe takes 0.66.
+const SRGB8: f32 = 0.7;
 
 const SIZE: [u32; 2] = [128, 64];
 
@@ -79,7 +79,6 @@ fn an_srgb_view_stores_the_same_bytes() {
         for form in look.forms().into_iter().chain([(&coded).into()]) {
             for target in [Rgba8UnormSrgb, Bgra8UnormSrgb] {
                 let furthest = furthest(&codes(&through(gpu, form, target, Way::Encode), target), form, 255.0);
-                eprintln!("{}: {target:?} {}: {furthest} codes", gpu.name, form.kind());
                 assert!(furthest <= SRGB8, "{target:?} {}: {furthest} codes", form.kind());
             }
         }
