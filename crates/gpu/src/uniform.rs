@@ -17,6 +17,9 @@ pub const MAX_GROUPS: usize = 64;
 /// Rows of the texture of points: three for the first curves, three for the second.
 pub(crate) const SECOND_ROW: u32 = 3;
 
+/// The input matrix that a shader may skip.
+const IDENTITY: Rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
 /// What the target does to values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum After {
@@ -56,11 +59,11 @@ impl Words {
     fn curves(&mut self, curves: &Lut1d, row: u32) -> Result<(), Error> {
         let (min, max) = (curves.domain().min(), curves.domain().max());
         let last = curves.size() - 1;
-        let scale: [f64; 3] = std::array::from_fn(|c| last as f64 / (f64::from(max[c]) - f64::from(min[c])));
+        let scale: [f64; 3] = std::array::from_fn(|c| 1.0 / (f64::from(max[c]) - f64::from(min[c])));
         let offset: [f32; 3] = std::array::from_fn(|c| (-f64::from(min[c]) * scale[c]) as f32);
         let scale = scale.map(|v| v as f32);
-        finite("points for each unit along a curve", &scale)?;
-        finite("where a curve begins, in points", &offset)?;
+        finite("scale along a curve", &scale)?;
+        finite("where a curve begins, over its length", &offset)?;
         self.floats(scale);
         self.float(last as f32);
         self.floats(offset);
@@ -94,7 +97,7 @@ impl Words {
 
 /// Size of a form's uniform buffer, bytes.
 pub(crate) const PLAIN_BYTES: u64 = 32;
-pub(crate) const STRUCTURED_BYTES: u64 = 304;
+pub(crate) const STRUCTURED_BYTES: u64 = 320;
 pub(crate) const DIRECT_BYTES: u64 = 192 + 96 * MAX_GROUPS as u64;
 
 pub(crate) fn plain(lut: &PlainLut, after: After) -> Result<Words, Error> {
@@ -134,6 +137,8 @@ pub(crate) fn structured(lut: &StructuredLut, after: After) -> Result<Words, Err
     words.flag(matches!(parts.decode, Decode::Density { .. }));
     words.flag(parts.interpolation == Interpolation::Trilinear);
     words.flag(coded);
+    words.flag(parts.input != IDENTITY);
+    words.floats([0.0; 3]);
     Ok(words)
 }
 
@@ -155,7 +160,7 @@ pub(crate) fn direct(form: &DirectForm, after: After) -> Result<Words, Error> {
     words.int(print);
     words.int(both);
     words.flag(coded);
-    words.float(0.0);
+    words.flag(parts.input != IDENTITY);
     words.0.extend(terms.0);
     Ok(words)
 }

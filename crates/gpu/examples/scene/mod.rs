@@ -1,4 +1,4 @@
-//! A stand-in for a renderer: scene-linear light over 16 stops, hues above, greys below.
+//! A stand-in for a renderer: scene-linear light over 14 stops, hues above, greys below.
 
 use onelight_gpu::wgpu::{
     Device, Extent3d, Queue, TexelCopyBufferLayout, Texture, TextureDescriptor, TextureDimension, TextureFormat,
@@ -6,7 +6,7 @@ use onelight_gpu::wgpu::{
 };
 
 /// Stops about mid grey from the left edge to the right.
-const STOPS: [f32; 2] = [-8.0, 8.0];
+const STOPS: [f32; 2] = [-7.0, 7.0];
 /// Part of the height that hues take.
 const HUES: f32 = 0.8;
 

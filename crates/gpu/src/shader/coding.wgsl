@@ -12,5 +12,5 @@ fn onelight_encode(linear: vec3f, coding: OnelightCoding) -> vec3f {
     let v = abs(linear);
     let power = (1.0 + coding.offset) * exp2(coding.inverse_exponent * log2(v)) - coding.offset;
     let coded = select(power, coding.slope * v, v <= vec3f(coding.end));
-    return select(coded, -coded, linear < vec3f(0.0));
+    return bitcast<vec3f>(bitcast<vec3u>(coded) | (bitcast<vec3u>(linear) & vec3u(ONELIGHT_SIGN_BIT)));
 }

@@ -1,7 +1,7 @@
 // Three curves, read linearly between points at equal steps; outside them the ends hold.
 
 struct OnelightCurves {
-    // Position among the points: input * scale + offset.
+    // From the first point to the last, 0 to 1: input * scale + offset.
     scale: vec3f,
     // Number of the last point.
     last: f32,
@@ -18,7 +18,7 @@ fn onelight_curve(points: texture_2d<f32>, row: i32, position: f32) -> f32 {
 }
 
 fn onelight_curves(points: texture_2d<f32>, curves: OnelightCurves, input: vec3f) -> vec3f {
-    let position = clamp(input * curves.scale + curves.offset, vec3f(0.0), vec3f(curves.last));
+    let position = saturate(input * curves.scale + curves.offset) * curves.last;
     return vec3f(
         onelight_curve(points, curves.row, position.x),
         onelight_curve(points, curves.row + 1, position.y),

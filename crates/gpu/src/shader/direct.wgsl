@@ -24,6 +24,8 @@ struct OnelightDirect {
     projection_end: u32,
     // Whether what comes out is still to be decoded for an sRGB view.
     coded: u32,
+    // Whether `input` is anything but the identity.
+    converts: u32,
     terms: array<OnelightTerms, 64>,
 }
 
@@ -33,14 +35,18 @@ fn onelight_exponential_sum(first: u32, end: u32, x: vec3f) -> vec3f {
     for (var group = first; group < end; group++) {
         let terms = onelight_look.terms[group];
         let light = exp2(-(terms.rate_red * x.x + terms.rate_green * x.y + terms.rate_blue * x.z));
-        sum += vec3f(dot(terms.weight_red, light), dot(terms.weight_green, light), dot(terms.weight_blue, light));
+        // Term by term, so that each is one multiply-add.
+        sum += vec3f(terms.weight_red.x, terms.weight_green.x, terms.weight_blue.x) * light.x;
+        sum += vec3f(terms.weight_red.y, terms.weight_green.y, terms.weight_blue.y) * light.y;
+        sum += vec3f(terms.weight_red.z, terms.weight_green.z, terms.weight_blue.z) * light.z;
+        sum += vec3f(terms.weight_red.w, terms.weight_green.w, terms.weight_blue.w) * light.w;
     }
     return sum;
 }
 
 // Twin: `DirectForm::apply`.
 fn onelight_direct(linear: vec3f, points: texture_2d<f32>) -> vec3f {
-    let exposure = onelight_look.exposure * onelight_scene(linear, onelight_look.input);
+    let exposure = onelight_look.exposure * onelight_scene(linear, onelight_look.input, onelight_look.converts);
     var dye = onelight_curves(points, onelight_look.curves, onelight_log2(exposure));
     if onelight_look.print_end > 0u {
         let print = onelight_exponential_sum(0u, onelight_look.print_end, dye);

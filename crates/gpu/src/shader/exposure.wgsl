@@ -8,7 +8,12 @@ fn onelight_log2(exposure: vec3f) -> vec3f {
     return log2(max(exposure, vec3f(ONELIGHT_LOG_FLOOR)));
 }
 
-// The picture's primaries become those of the exposure matrix; negative light counts as 0.
-fn onelight_scene(linear: vec3f, input: mat3x3f) -> vec3f {
-    return clamp(input * onelight_finite(linear), vec3f(0.0), vec3f(ONELIGHT_INPUT_MAX));
+// The picture's primaries become those of the exposure matrix, unless they are the same (`converts` is 0); negative light
+// counts as 0.
+fn onelight_scene(linear: vec3f, input: mat3x3f, converts: u32) -> vec3f {
+    var scene = onelight_finite(linear);
+    if converts != 0u {
+        scene = input * scene;
+    }
+    return clamp(scene, vec3f(0.0), vec3f(ONELIGHT_INPUT_MAX));
 }

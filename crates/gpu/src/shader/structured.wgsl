@@ -18,13 +18,15 @@ struct OnelightStructured {
     densities: u32,
     trilinear: u32,
     coded: u32,
+    // Whether `input` is anything but the identity.
+    converts: u32,
 }
 
 const ONELIGHT_LOG2_10: f32 = 3.321928094887362;
 
 // Twin: `StructuredLut::coordinates`.
 fn onelight_coordinates(linear: vec3f, look: OnelightStructured, points: texture_2d<f32>) -> vec3f {
-    let exposure = look.exposure * onelight_scene(linear, look.input);
+    let exposure = look.exposure * onelight_scene(linear, look.input, look.converts);
     let first = onelight_curves(points, look.curves, onelight_log2(exposure));
     if look.mixes == 0u {
         return first;
