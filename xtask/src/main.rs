@@ -38,6 +38,8 @@ enum Command {
     Certify(command::certify::Arguments),
     /// Develop a picture: scene-linear EXR (or TIFF, PNG) in, film out
     Develop(command::develop::Arguments),
+    /// Time the forms on a graphics card beside a plain copy: target/onelight/gpu.json
+    GpuBench(command::gpu_bench::Arguments),
     /// List the stocks, or show one with a plot of its curves
     Stocks(command::stocks::Arguments),
     /// Render the fixture scene, and measure what going through RGB costs
@@ -78,6 +80,7 @@ fn run(command: Command) -> Result<Report> {
         Command::Bake(arguments) => command::bake::run(&arguments),
         Command::Certify(arguments) => command::certify::run(&arguments),
         Command::Develop(arguments) => command::develop::run(&arguments),
+        Command::GpuBench(arguments) => command::gpu_bench::run(&arguments),
         Command::Stocks(arguments) => command::stocks::run(&arguments),
         Command::Fixtures(arguments) => command::fixtures::run(&arguments),
         Command::Tidy(arguments) => command::tidy::run(&arguments),

@@ -56,7 +56,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     png.set_color(png::ColorType::Rgba);
     png.set_depth(png::BitDepth::Eight);
     png.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    png.write_header()?.write_image_data(&read.slice(..).get_mapped_range()?.to_vec())?;
+    png.write_header()?.write_image_data(&read.slice(..).get_mapped_range()?)?;
     println!("{path}: {stock} on {}", adapter.get_info().name);
     Ok(())
 }

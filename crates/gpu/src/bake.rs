@@ -49,7 +49,7 @@ impl TableBake {
     /// If `into` is not a plain look, the device has no compute shaders, or as [`BoundLook::swap`].
     pub fn new(device: &Device, queue: &Queue, form: &DirectForm, into: &BoundLook) -> Result<Self, Error> {
         let (FormKind::Plain, Some(table)) = (into.kind(), into.table()) else {
-            return Err(Kind::FormKind { found: into.kind(), expected: FormKind::Plain }.into());
+            return Err(Kind::OtherForm { found: into.kind(), expected: FormKind::Plain }.into());
         };
         if device.limits().max_compute_invocations_per_workgroup < GROUP.pow(3) {
             return Err(Kind::NoCompute.into());

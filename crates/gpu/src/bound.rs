@@ -107,20 +107,20 @@ impl BoundLook {
     /// Uploads another look into the same resources: no pipeline, no texture, no wait. It shows from the next submission on.
     ///
     /// # Errors
-    /// If it has another form or another size of table; if a curve has more than [`MAX_POINTS`] points, sums have more than
-    /// [`MAX_GROUPS`](crate::MAX_GROUPS) groups of terms, an entry does not fit a half float, or steps of a curve leave the
+    /// If it has another form or another size of table; if a curve has more than [`MAX_POINTS`] points, a sum more than
+    /// [`MAX_TERMS`](crate::MAX_TERMS) terms, an entry does not fit a half float, or steps of a curve leave the
     /// range of 32-bit floats. The resources then hold what they held.
     pub fn swap<'a>(&self, queue: &Queue, form: impl Into<Form<'a>>) -> Result<(), Error> {
         let form = form.into();
         if form.kind() != self.kind {
-            return Err(Kind::FormKind { found: form.kind(), expected: self.kind }.into());
+            return Err(Kind::OtherForm { found: form.kind(), expected: self.kind }.into());
         }
-        let (words, curves) = self.numbers(form)?;
+        let words = self.words(form)?;
         let entries = match (table(form), &self.table) {
             (Some(table), Some(to)) => Some((to, to.bytes(table)?)),
             _ => None,
         };
-        let curves = curves.into_iter().map(|(row, curves)| Ok((row, curves.size(), points_bytes(curves)?)));
+        let curves = curves(form).into_iter().flatten().map(|(row, curves)| Ok((row, curves.size(), points(curves)?)));
         let curves = curves.collect::<Result<Vec<_>, Error>>()?;
         // All is checked; nothing below fails.
         queue.write_buffer(&self.uniform, 0, &words.bytes());
@@ -135,21 +135,13 @@ impl BoundLook {
         Ok(())
     }
 
-    /// The words of the uniform buffer, and the curves with their first rows.
-    fn numbers<'a>(&self, form: Form<'a>) -> Result<(Words, Vec<(u32, &'a Lut1d)>), Error> {
-        Ok(match form {
-            Form::Plain(lut) => (uniform::plain(lut, self.after)?, Vec::new()),
-            Form::Structured(lut) => {
-                let second = lut.parts().mix.as_ref().map(|mix| (uniform::SECOND_ROW, &mix.curves));
-                let curves = [Some((0, &lut.parts().curves)), second];
-                (uniform::structured(lut, self.after)?, curves.into_iter().flatten().collect())
-            }
-            Form::Direct(form) => {
-                let second = form.parts().print.as_ref().map(|print| (uniform::SECOND_ROW, &print.curves));
-                let curves = [Some((0, &form.parts().curves)), second];
-                (uniform::direct(form, self.after)?, curves.into_iter().flatten().collect())
-            }
-        })
+    /// The words of the uniform buffer.
+    fn words(&self, form: Form<'_>) -> Result<Words, Error> {
+        match form {
+            Form::Plain(lut) => uniform::plain(lut, self.after),
+            Form::Structured(lut) => uniform::structured(lut, self.after),
+            Form::Direct(form) => uniform::direct(form, self.after),
+        }
     }
 
     /// Which form it holds.
@@ -190,7 +182,17 @@ fn table(form: Form<'_>) -> Option<&Lut3d> {
     }
 }
 
-fn points_bytes(curves: &Lut1d) -> Result<Vec<u8>, Error> {
+/// The curves of a form with the first of their rows in the texture of points.
+fn curves(form: Form<'_>) -> [Option<(u32, &Lut1d)>; 2] {
+    let (first, second) = match form {
+        Form::Plain(_) => return [None; 2],
+        Form::Structured(lut) => (&lut.parts().curves, lut.parts().mix.as_ref().map(|mix| &mix.curves)),
+        Form::Direct(form) => (&form.parts().curves, form.parts().print.as_ref().map(|print| &print.curves)),
+    };
+    [Some((0, first)), second.map(|second| (uniform::SECOND_ROW, second))]
+}
+
+fn points(curves: &Lut1d) -> Result<Vec<u8>, Error> {
     match curves.size() {
         found if found > MAX_POINTS => Err(Kind::Points { found, max: MAX_POINTS }.into()),
         _ => uniform::points(curves),

@@ -15,7 +15,7 @@ pub struct Error(Box<Kind>);
 impl Error {
     /// Whether the form does not fit the resources that it was to be uploaded into: a new pass is needed.
     pub fn is_other_shape(&self) -> bool {
-        matches!(*self.0, Kind::FormKind { .. } | Kind::TableSize { .. })
+        matches!(*self.0, Kind::OtherForm { .. } | Kind::TableSize { .. })
     }
 
     /// Whether a texture to read or write is at fault.
@@ -33,10 +33,10 @@ pub(crate) enum Kind {
     NotFilterable,
     NoCompute,
     Shaper,
-    FormKind { found: FormKind, expected: FormKind },
+    OtherForm { found: FormKind, expected: FormKind },
     TableSize { found: usize, expected: usize },
     Points { found: usize, max: usize },
-    Groups { found: usize, max: usize },
+    Terms { found: usize, max: usize },
     Half { found: f32 },
     NotFinite { what: &'static str, found: f32 },
     Side { width: u32, height: u32 },
@@ -67,7 +67,7 @@ impl fmt::Display for Error {
             ),
             Kind::Shaper => f.write_str("shaper of a plain form: found a kind that has no shader, expected log2 with an offset"),
             Kind::NoCompute => f.write_str("device for a bake: found no compute shaders, expected some"),
-            Kind::FormKind { found, expected } => {
+            Kind::OtherForm { found, expected } => {
                 write!(f, "form of the new look: found {found}, expected {expected} as in these resources")
             }
             Kind::TableSize { found, expected } => write!(
@@ -75,10 +75,9 @@ impl fmt::Display for Error {
                 "table of the new look: found {found} nodes a side, expected {expected} as in these resources"
             ),
             Kind::Points { found, max } => write!(f, "points of the form's curves: found {found}, expected at most {max}"),
-            Kind::Groups { found, max } => write!(
-                f,
-                "terms of the form's sums in groups of four: found {found} groups, expected at most {max}"
-            ),
+            Kind::Terms { found, max } => {
+                write!(f, "terms of a sum of the form: found {found}, expected at most {max}")
+            }
             Kind::Half { found } => {
                 write!(f, "entry of a table kept in half floats: found {found}, expected a number within ±65504")
             }

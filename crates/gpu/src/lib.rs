@@ -50,7 +50,7 @@ pub use error::Error;
 pub use form::{Form, FormKind};
 pub use pass::FilmPass;
 pub use shader::{Fetch, wgsl};
-pub use uniform::MAX_GROUPS;
+pub use uniform::MAX_TERMS;
 pub use wgpu;
 
 /// The most pixels a side: what every WebGPU device takes.

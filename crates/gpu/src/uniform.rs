@@ -4,21 +4,23 @@
 //! integers, matrices as three columns of four words, the fourth unused.
 
 use onelight_lut::{
-    Decode, DirectForm, DirectPrint, ExponentialSum, Interpolation, Lut1d, Mix, PlainLut, PowerCoding, Rows,
+    Decode, DirectForm, DirectPrint, ExponentialTerm, Interpolation, Lut1d, Mix, PlainLut, PowerCoding, Rows,
     ShaperKind, StructuredLut,
 };
 
 use crate::error::{Error, Kind};
 
-/// The most groups of four terms that the sums of a direct form may have together, each sum rounded up to whole groups:
-/// 256 terms. Enough for every 5 nm from 400 to 1000 nm and from 380 to 780 nm.
-pub const MAX_GROUPS: usize = 64;
+/// The most terms that each sum of a direct form may have: enough for every 5 nm from 400 to 1000 nm.
+pub const MAX_TERMS: usize = 128;
 
 /// Rows of the texture of points: three for the first curves, three for the second.
 pub(crate) const SECOND_ROW: u32 = 3;
 
 /// The input matrix that a shader may skip.
 const IDENTITY: Rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// Adds nothing to a sum.
+const NO_TERM: ExponentialTerm = ExponentialTerm { rate: [0.0; 3], weight: [0.0; 3] };
 
 /// What the target does to values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,8 +53,9 @@ impl Words {
     }
 
     fn rows(&mut self, rows: &Rows) {
-        for k in 0..3 {
-            self.floats([rows[0][k], rows[1][k], rows[2][k], 0.0]);
+        let [a, b, c] = rows;
+        for ((a, b), c) in a.iter().zip(b).zip(c) {
+            self.floats([*a, *b, *c, 0.0]);
         }
     }
 
@@ -77,17 +80,13 @@ impl Words {
         self.floats([(1.0 / coding.exponent()) as f32, coding.offset() as f32, coding.slope() as f32, end]);
     }
 
-    /// A sum in groups of four terms; returns how many groups.
-    fn terms(&mut self, sum: &ExponentialSum) -> usize {
-        for group in sum.terms().chunks(4) {
-            for c in 0..3 {
-                self.floats((0..4).map(|i| group.get(i).map_or(0.0, |term| term.rate[c])));
-            }
-            for c in 0..3 {
-                self.floats((0..4).map(|i| group.get(i).map_or(0.0, |term| term.weight[c])));
-            }
+    /// A sum in groups of four terms, and weights of 0 after its last.
+    fn terms(&mut self, terms: &[ExponentialTerm]) {
+        for first in (0..MAX_TERMS).step_by(4) {
+            let group: [ExponentialTerm; 4] = std::array::from_fn(|i| terms.get(first + i).copied().unwrap_or(NO_TERM));
+            (0..3).for_each(|c| self.floats(group.map(|term| term.rate[c])));
+            (0..3).for_each(|c| self.floats(group.map(|term| term.weight[c])));
         }
-        sum.terms().len().div_ceil(4)
     }
 
     pub(crate) fn bytes(&self) -> Vec<u8> {
@@ -98,7 +97,7 @@ impl Words {
 /// Size of a form's uniform buffer, bytes.
 pub(crate) const PLAIN_BYTES: u64 = 32;
 pub(crate) const STRUCTURED_BYTES: u64 = 320;
-pub(crate) const DIRECT_BYTES: u64 = 192 + 96 * MAX_GROUPS as u64;
+pub(crate) const DIRECT_BYTES: u64 = 192 + 2 * 24 * MAX_TERMS as u64;
 
 pub(crate) fn plain(lut: &PlainLut, after: After) -> Result<Words, Error> {
     let mut words = Words::default();
@@ -144,11 +143,11 @@ pub(crate) fn structured(lut: &StructuredLut, after: After) -> Result<Words, Err
 
 pub(crate) fn direct(form: &DirectForm, after: After) -> Result<Words, Error> {
     let parts = form.parts();
-    let mut terms = Words::default();
-    let print = parts.print.as_ref().map_or(0, |print| terms.terms(&print.exposure));
-    let both = print + terms.terms(&parts.projection);
-    if both > MAX_GROUPS {
-        return Err(Kind::Groups { found: both, max: MAX_GROUPS }.into());
+    let print = parts.print.as_ref().map_or(&[][..], |print| print.exposure.terms());
+    let projection = parts.projection.terms();
+    let found = print.len().max(projection.len());
+    if found > MAX_TERMS {
+        return Err(Kind::Terms { found, max: MAX_TERMS }.into());
     }
     let (coding, coded) = coding_before(&parts.coding, after);
     let mut words = Words::default();
@@ -157,11 +156,12 @@ pub(crate) fn direct(form: &DirectForm, after: After) -> Result<Words, Error> {
     words.curves(&parts.curves, 0)?;
     words.curves(parts.print.as_ref().map_or(&parts.curves, |DirectPrint { curves, .. }| curves), SECOND_ROW)?;
     words.coding(&coding);
-    words.int(print);
-    words.int(both);
+    words.int(print.len().div_ceil(4));
+    words.int(projection.len().div_ceil(4));
     words.flag(coded);
     words.flag(parts.input != IDENTITY);
-    words.0.extend(terms.0);
+    words.terms(print);
+    words.terms(projection);
     Ok(words)
 }
 

@@ -4,5 +4,6 @@ pub(crate) mod bake;
 pub(crate) mod certify;
 pub(crate) mod develop;
 pub(crate) mod fixtures;
+pub(crate) mod gpu_bench;
 pub(crate) mod stocks;
 pub(crate) mod tidy;
