@@ -1,5 +1,4 @@
-use half::f16;
-use onelight_lut::{Lut1d, Lut3d, Storage};
+use onelight_lut::Storage;
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry,
     BindingResource, BindingType, Buffer, BufferBindingType, BufferDescriptor, BufferUsages, Device, Extent3d,
@@ -8,13 +7,11 @@ use wgpu::{
     TextureSampleType, TextureUsages, TextureViewDescriptor, TextureViewDimension,
 };
 
+use crate::bytes::{CURVE_ROWS, LookBytes, MAX_POINTS, TableBytes};
 use crate::error::{Error, Kind};
 use crate::form::{Form, FormKind};
 use crate::shader::Fetch;
-use crate::uniform::{self, After, Words};
-
-/// The most points that a form's curves may have.
-pub const MAX_POINTS: usize = 2048;
+use crate::uniform::After;
 
 /// How a look's table is kept and read; nothing to a direct form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,8 +54,7 @@ impl BoundLook {
     /// Makes the resources for a form and uploads it.
     ///
     /// # Errors
-    /// If the form does not fit (see [`BoundLook::swap`]), the storage is neither `F16` nor `F32`, or a table of 32-bit
-    /// floats is to be filtered on a device that cannot.
+    /// As [`LookBytes::new`], or if a table of 32-bit floats is to be filtered on a device that cannot.
     pub fn new<'a>(
         device: &Device,
         queue: &Queue,
@@ -76,71 +72,54 @@ impl BoundLook {
         settings: &LookSettings,
         after: After,
     ) -> Result<Self, Error> {
-        let kind = form.kind();
-        let filtered = settings.fetch == Fetch::Filtered && kind != FormKind::Direct;
-        let table = match table(form) {
-            Some(table) => Some(Table::new(device, table.size(), settings.storage)?),
-            None => None,
-        };
+        let look = LookBytes::before(form, settings.storage, after)?;
+        let table = look.table.as_ref().map(|table| Table::new(device, table));
+        let filtered = settings.fetch == Fetch::Filtered && table.is_some();
         if filtered && settings.storage == Storage::F32 && !device.features().contains(Features::FLOAT32_FILTERABLE) {
             return Err(Kind::NotFilterable.into());
         }
-        let points = (kind != FormKind::Plain).then(|| points_texture(device));
-        let bytes = match kind {
-            FormKind::Plain => uniform::PLAIN_BYTES,
-            FormKind::Structured => uniform::STRUCTURED_BYTES,
-            FormKind::Direct => uniform::DIRECT_BYTES,
-        };
+        let points = (!look.curves.is_empty()).then(|| points_texture(device));
         let uniform = device.create_buffer(&BufferDescriptor {
             label: Some("onelight look"),
-            size: bytes,
+            size: look.uniform.len() as u64,
             usage: BufferUsages::UNIFORM | BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let layout = layout(device, kind, filtered);
+        let layout = layout(device, look.kind, filtered);
         let bind_group = bind_group(device, &layout, &uniform, table.as_ref(), points.as_ref(), filtered);
-        let bound = Self { kind, settings: *settings, after, uniform, table, points, layout, bind_group };
-        bound.swap(queue, form)?;
+        let bound = Self { kind: look.kind, settings: *settings, after, uniform, table, points, layout, bind_group };
+        bound.write(queue, &look);
         Ok(bound)
     }
 
     /// Uploads another look into the same resources: no pipeline, no texture, no wait. It shows from the next submission on.
     ///
     /// # Errors
-    /// If it has another form or another size of table; if a curve has more than [`MAX_POINTS`] points, a sum more than
-    /// [`MAX_TERMS`](crate::MAX_TERMS) terms, an entry does not fit a half float, or steps of a curve leave the
-    /// range of 32-bit floats. The resources then hold what they held.
+    /// If it has another form or another size of table, or as [`LookBytes::new`]. The resources then hold what they held.
     pub fn swap<'a>(&self, queue: &Queue, form: impl Into<Form<'a>>) -> Result<(), Error> {
         let form = form.into();
         if form.kind() != self.kind {
             return Err(Kind::OtherForm { found: form.kind(), expected: self.kind }.into());
         }
-        let words = self.words(form)?;
-        let entries = match (table(form), &self.table) {
-            (Some(table), Some(to)) => Some((to, to.bytes(table)?)),
-            _ => None,
-        };
-        let curves = curves(form).into_iter().flatten().map(|(row, curves)| Ok((row, curves.size(), points(curves)?)));
-        let curves = curves.collect::<Result<Vec<_>, Error>>()?;
-        // All is checked; nothing below fails.
-        queue.write_buffer(&self.uniform, 0, &words.bytes());
-        if let Some((to, bytes)) = entries {
-            to.write(queue, &bytes);
+        let look = LookBytes::before(form, self.settings.storage, self.after)?;
+        if let (Some(new), Some(table)) = (&look.table, &self.table)
+            && new.size != table.size
+        {
+            return Err(Kind::TableSize { found: new.size, expected: table.size }.into());
         }
-        for (row, size, bytes) in curves {
-            if let Some(points) = &self.points {
-                write(queue, points, [0, row, 0], [size as u32, 3, 1], 8, &bytes);
-            }
-        }
+        self.write(queue, &look);
         Ok(())
     }
 
-    /// The words of the uniform buffer.
-    fn words(&self, form: Form<'_>) -> Result<Words, Error> {
-        match form {
-            Form::Plain(lut) => uniform::plain(lut, self.after),
-            Form::Structured(lut) => uniform::structured(lut, self.after),
-            Form::Direct(form) => uniform::direct(form, self.after),
+    fn write(&self, queue: &Queue, look: &LookBytes) {
+        queue.write_buffer(&self.uniform, 0, &look.uniform);
+        if let (Some(new), Some(table)) = (&look.table, &self.table) {
+            write(queue, &table.texture, [0; 3], [new.size as u32; 3], &new.bytes);
+        }
+        for curves in &look.curves {
+            if let Some(points) = &self.points {
+                write(queue, points, [0, curves.row, 0], [curves.points as u32, 3, 1], &curves.bytes);
+            }
         }
     }
 
@@ -174,77 +153,28 @@ impl BoundLook {
     }
 }
 
-fn table(form: Form<'_>) -> Option<&Lut3d> {
-    match form {
-        Form::Plain(lut) => Some(lut.table()),
-        Form::Structured(lut) => Some(&lut.parts().table),
-        Form::Direct(_) => None,
-    }
-}
-
-/// The curves of a form with the first of their rows in the texture of points.
-fn curves(form: Form<'_>) -> [Option<(u32, &Lut1d)>; 2] {
-    let (first, second) = match form {
-        Form::Plain(_) => return [None; 2],
-        Form::Structured(lut) => (&lut.parts().curves, lut.parts().mix.as_ref().map(|mix| &mix.curves)),
-        Form::Direct(form) => (&form.parts().curves, form.parts().print.as_ref().map(|print| &print.curves)),
-    };
-    [Some((0, first)), second.map(|second| (uniform::SECOND_ROW, second))]
-}
-
-fn points(curves: &Lut1d) -> Result<Vec<u8>, Error> {
-    match curves.size() {
-        found if found > MAX_POINTS => Err(Kind::Points { found, max: MAX_POINTS }.into()),
-        _ => uniform::points(curves),
-    }
-}
-
 impl Table {
-    fn new(device: &Device, size: usize, storage: Storage) -> Result<Self, Error> {
-        let format = match storage {
-            Storage::F16 => TextureFormat::Rgba16Float,
-            Storage::F32 => TextureFormat::Rgba32Float,
-            found => return Err(Kind::Storage { found }.into()),
-        };
+    fn new(device: &Device, table: &TableBytes) -> Self {
+        let side = table.size as u32;
         // To be baked into, where the device computes.
         let computes = device.limits().max_compute_invocations_per_workgroup >= 64;
         let baked = if computes { TextureUsages::STORAGE_BINDING } else { TextureUsages::empty() };
         let texture = device.create_texture(&TextureDescriptor {
             label: Some("onelight table"),
-            size: Extent3d { width: size as u32, height: size as u32, depth_or_array_layers: size as u32 },
+            size: Extent3d { width: side, height: side, depth_or_array_layers: side },
             mip_level_count: 1,
             sample_count: 1,
             dimension: TextureDimension::D3,
-            format,
+            format: if table.storage == Storage::F16 { TextureFormat::Rgba16Float } else { TextureFormat::Rgba32Float },
             usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST | TextureUsages::COPY_SRC | baked,
             view_formats: &[],
         });
-        Ok(Self { texture, size })
-    }
-
-    fn bytes(&self, table: &Lut3d) -> Result<Vec<u8>, Error> {
-        if table.size() != self.size {
-            return Err(Kind::TableSize { found: table.size(), expected: self.size }.into());
-        }
-        let entries = table.entries();
-        if self.texture.format() == TextureFormat::Rgba32Float {
-            let texels = entries.iter().flat_map(|&[r, g, b]| [r, g, b, 1.0]);
-            return Ok(texels.flat_map(f32::to_ne_bytes).collect());
-        }
-        if let Some(&found) = entries.iter().flatten().find(|v| f16::from_f32(**v).is_infinite()) {
-            return Err(Kind::Half { found }.into());
-        }
-        let texels = entries.iter().flat_map(|&[r, g, b]| [r, g, b, 1.0]);
-        Ok(texels.flat_map(|v| f16::from_f32(v).to_ne_bytes()).collect())
-    }
-
-    fn write(&self, queue: &Queue, bytes: &[u8]) {
-        let texel = self.texture.format().block_copy_size(None).unwrap_or(0);
-        write(queue, &self.texture, [0; 3], [self.size as u32; 3], texel, bytes);
+        Self { texture, size: table.size }
     }
 }
 
-fn write(queue: &Queue, texture: &Texture, [x, y, z]: [u32; 3], size: [u32; 3], texel: u32, bytes: &[u8]) {
+fn write(queue: &Queue, texture: &Texture, [x, y, z]: [u32; 3], size: [u32; 3], bytes: &[u8]) {
+    let texel = texture.format().block_copy_size(None).unwrap_or(0);
     let [width, height, depth_or_array_layers] = size;
     let to = TexelCopyTextureInfo { texture, mip_level: 0, origin: Origin3d { x, y, z }, aspect: TextureAspect::All };
     let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(width * texel), rows_per_image: Some(height) };
@@ -255,7 +185,7 @@ fn write(queue: &Queue, texture: &Texture, [x, y, z]: [u32; 3], size: [u32; 3], 
 fn points_texture(device: &Device) -> Texture {
     device.create_texture(&TextureDescriptor {
         label: Some("onelight curves"),
-        size: Extent3d { width: MAX_POINTS as u32, height: 2 * uniform::SECOND_ROW, depth_or_array_layers: 1 },
+        size: Extent3d { width: MAX_POINTS as u32, height: CURVE_ROWS, depth_or_array_layers: 1 },
         mip_level_count: 1,
         sample_count: 1,
         dimension: TextureDimension::D2,

@@ -20,7 +20,8 @@
 //! ```
 //!
 //! - [`FilmPass::encode`] writes a texture, [`FilmPass::draw`] into a render pass of the user's;
-//! - [`wgsl`] and [`BoundLook`] are the same for a shader of the user's: `onelight_develop(rgb)`;
+//! - [`wgsl`] and [`BoundLook`] are the same for a shader of the user's: `onelight_develop(rgb)`; with [`LookBytes`] also
+//!   without wgpu, or with another version of it;
 //! - [`TableBake`] fills the table of a plain form from a direct form, on the GPU.
 //!
 //! The device, the queue and the submission are the user's. No backend is chosen here: the program enables one of
@@ -37,6 +38,7 @@
 
 mod bake;
 mod bound;
+mod bytes;
 mod error;
 mod form;
 mod pass;
@@ -45,7 +47,8 @@ mod target;
 mod uniform;
 
 pub use bake::TableBake;
-pub use bound::{BoundLook, LookSettings, MAX_POINTS};
+pub use bound::{BoundLook, LookSettings};
+pub use bytes::{CURVE_ROWS, CurveBytes, LookBytes, MAX_POINTS, TableBytes};
 pub use error::Error;
 pub use form::{Form, FormKind};
 pub use pass::FilmPass;

@@ -13,7 +13,7 @@ use crate::error::{Error, Kind};
 /// The most terms that each sum of a direct form may have: enough for every 5 nm from 400 to 1000 nm.
 pub const MAX_TERMS: usize = 128;
 
-/// Rows of the texture of points: three for the first curves, three for the second.
+/// First row of the second curves in the texture of points.
 pub(crate) const SECOND_ROW: u32 = 3;
 
 /// The input matrix that a shader may skip.
@@ -93,11 +93,6 @@ impl Words {
         self.0.iter().flat_map(|word| word.to_ne_bytes()).collect()
     }
 }
-
-/// Size of a form's uniform buffer, bytes.
-pub(crate) const PLAIN_BYTES: u64 = 32;
-pub(crate) const STRUCTURED_BYTES: u64 = 320;
-pub(crate) const DIRECT_BYTES: u64 = 192 + 2 * 24 * MAX_TERMS as u64;
 
 pub(crate) fn plain(lut: &PlainLut, after: After) -> Result<Words, Error> {
     let mut words = Words::default();

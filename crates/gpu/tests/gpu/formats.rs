@@ -1,7 +1,7 @@
 //! Targets of every format.
 
 use onelight_gpu::{FilmPass, Form, LookSettings};
-use onelight_lut::{Sample as _, Storage};
+use onelight_lut::{DirectForm, DirectParts, PowerCoding, Sample as _, Storage};
 use wgpu::TextureFormat::{
     self, Bgra8Unorm, Bgra8UnormSrgb, Rgb10a2Unorm, Rgba8Unorm, Rgba8UnormSrgb, Rgba16Float, Rgba32Float,
 };
@@ -76,7 +76,9 @@ fn an_srgb_view_stores_the_same_bytes() {
     let Some(gpu) = gpu() else { return };
     for look in looks() {
         let coded = coded(look);
-        for form in look.forms().into_iter().chain([(&coded).into()]) {
+        let gamma = PowerCoding::new(2.4, 0.0).unwrap();
+        let gamma = DirectForm::new(DirectParts { coding: gamma, ..look.direct.parts().clone() }).unwrap();
+        for form in look.forms().into_iter().chain([(&coded).into(), (&gamma).into()]) {
             for target in [Rgba8UnormSrgb, Bgra8UnormSrgb] {
                 let furthest = furthest(&codes(&through(gpu, form, target, Way::Encode), target), form, 255.0);
                 assert!(furthest <= SRGB8, "{target:?} {}: {furthest} codes", form.kind());
@@ -115,4 +117,13 @@ fn integers_of_the_cpu_are_the_same_codes() {
     let equal = found.iter().zip(pixels()).filter(|&(found, pixel)| same((found, pixel))).count();
     // Values within 0.0026 codes of a boundary may fall on either side: 1.5 % of pixels at most.
     assert!(equal as f64 >= 0.98 * found.len() as f64, "{equal} of {}", found.len());
+}
+
+#[test]
+fn linear_light_is_encoded_by_an_srgb_view() {
+    let Some(gpu) = gpu() else { return };
+    let coded = &looks()[0].direct;
+    let linear = DirectForm::new(DirectParts { coding: PowerCoding::LINEAR, ..coded.parts().clone() }).unwrap();
+    let found = codes(&through(gpu, (&linear).into(), Rgba8UnormSrgb, Way::Encode), Rgba8UnormSrgb);
+    assert!(furthest(&found, coded.into(), 255.0) <= SRGB8);
 }

@@ -1,5 +1,6 @@
 //! Each shader against its twin in 32-bit floats.
 
+use onelight::{DirectSettings, Entries, Nodes, Process, StructuredSettings, TransferCurve, WorkingSpace};
 use onelight_gpu::{Fetch, FilmPass, Form, LookSettings};
 use onelight_lut::Storage;
 use wgpu::TextureFormat::{Rgba16Float, Rgba32Float};
@@ -19,11 +20,16 @@ const PARITY: f32 = 1e-5;
 
 const SIZE: [u32; 2] = [256, 128];
 
-fn difference(gpu: &Gpu, form: Form<'_>, storage: Storage, way: Way, twin: Form<'_>) -> f32 {
+fn through(gpu: &Gpu, form: Form<'_>, storage: Storage, way: Way) -> Vec<[f32; 4]> {
     let settings = LookSettings { fetch: Fetch::Texels, storage };
     let pass = FilmPass::with_settings(&gpu.device, &gpu.queue, form, Rgba32Float, &settings).unwrap();
     let pixels = colours((SIZE[0] * SIZE[1]) as usize);
-    let found = floats(&develop(gpu, &pass, &source(gpu, SIZE, Rgba32Float, &pixels), way));
+    floats(&develop(gpu, &pass, &source(gpu, SIZE, Rgba32Float, &pixels), way))
+}
+
+fn difference(gpu: &Gpu, form: Form<'_>, storage: Storage, way: Way, twin: Form<'_>) -> f32 {
+    let found = through(gpu, form, storage, way);
+    let pixels = colours((SIZE[0] * SIZE[1]) as usize);
     for (found, given) in found.iter().zip(&pixels) {
         assert_eq!(found[3], given[3], "alpha");
     }
@@ -71,6 +77,31 @@ fn half_floats_in_are_what_they_say() {
         let found = floats(&develop(gpu, &pass, &source, Way::Encode));
         let rounded = |v: f32| half::f16::from_f32(v).to_f32();
         let difference = largest(&found, pixels.iter().map(|&[r, g, b, _]| apply(form, [r, g, b].map(rounded))));
+        assert!(difference <= PARITY, "{}: {difference:e}", form.kind());
+    }
+}
+
+#[test]
+fn other_spaces_and_many_terms_are_too() {
+    let Some(gpu) = gpu() else { return };
+    // A first matrix that is not the identity, a coding with no foot, sums longer than those of fitted forms.
+    let process = Process {
+        input_space: WorkingSpace::Rec2020,
+        output_coding: TransferCurve::Gamma24,
+        ..Process::for_camera("kodak-5219").unwrap()
+    };
+    let film = process.compile().unwrap();
+    let settings = StructuredSettings { size: 8, entries: Entries::Sampled, ..Default::default() };
+    let structured = film.structured(&settings).unwrap();
+    let direct = film.direct(&DirectSettings { nodes: Nodes::Grid { step_nm: 5 } }).unwrap();
+    // Without a foot the coding's slope at black has no limit, and with it a coded difference: linear light is compared.
+    let linear = |coded: f32| coded.signum() * coded.abs().powf(2.4);
+    for form in [Form::from(&structured), Form::from(&direct)] {
+        let found = through(gpu, form, Storage::F32, Way::Encode);
+        let found: Vec<_> = found.into_iter().map(|pixel| pixel.map(linear)).collect();
+        let pixels = colours((SIZE[0] * SIZE[1]) as usize);
+        let difference = largest(&found, pixels.iter().map(|&[r, g, b, _]| apply(form, [r, g, b]).map(linear)));
+        eprintln!("{}: Rec.2020 to gamma 2.4, {}: {difference:.1e}", gpu.name, form.kind());
         assert!(difference <= PARITY, "{}: {difference:e}", form.kind());
     }
 }
