@@ -52,6 +52,16 @@ impl PowerCoding {
         self.offset
     }
 
+    /// Slope of the straight foot.
+    pub fn slope(&self) -> f64 {
+        self.slope
+    }
+
+    /// Where the foot ends, in linear light.
+    pub fn end(&self) -> f64 {
+        self.end
+    }
+
     /// Linear to coded.
     pub fn encode(&self, linear: f64) -> f64 {
         let v = linear.abs();

@@ -30,6 +30,8 @@ pub use direct::{DirectSettings, Nodes};
 pub use error::Error;
 pub use onelight_film as film;
 pub use onelight_film::{DyeModel, Matching, Stock, StockKind, Tail};
+#[cfg(feature = "gpu")]
+pub use onelight_gpu as gpu;
 pub use onelight_lut as lut;
 pub use onelight_printing as printing;
 pub use onelight_printing::{Aim, HeatGlass, Infrared, Projector};

@@ -4,6 +4,7 @@ pub(crate) mod bake;
 pub(crate) mod certify;
 pub(crate) mod develop;
 pub(crate) mod fixtures;
+pub(crate) mod gpu_bench;
 pub(crate) mod report;
 pub(crate) mod stocks;
 pub(crate) mod tidy;

@@ -1,0 +1,17 @@
+// Numbers that every driver treats alike. By bits: a compiler may take it for granted that there is no NaN.
+
+// 1e30, its bits, and those of infinity.
+const ONELIGHT_INPUT_MAX: f32 = 1e30;
+const ONELIGHT_INPUT_MAX_BITS: u32 = 0x7149f2cau;
+const ONELIGHT_INFINITY_BITS: u32 = 0x7f800000u;
+const ONELIGHT_SIGN_BIT: u32 = 0x80000000u;
+
+// NaN becomes 0, infinities and what lies beyond ±1e30 become ±1e30. Subnormal numbers may count as 0: nothing that follows
+// tells them apart.
+fn onelight_finite(v: vec3f) -> vec3f {
+    let bits = bitcast<vec3u>(v);
+    let magnitude = bits & vec3u(~ONELIGHT_SIGN_BIT);
+    let nan = magnitude > vec3u(ONELIGHT_INFINITY_BITS);
+    let held = select(min(magnitude, vec3u(ONELIGHT_INPUT_MAX_BITS)), vec3u(0u), nan);
+    return bitcast<vec3f>(held | (bits & vec3u(ONELIGHT_SIGN_BIT)));
+}

@@ -1,0 +1,7 @@
+// What a direct look is bound to; an engine gives its own numbers of group and bindings.
+@group(0) @binding(0) var<uniform> onelight_look: OnelightDirect;
+@group(0) @binding(2) var onelight_points: texture_2d<f32>;
+
+fn onelight_develop(rgb: vec3f) -> vec3f {
+    return onelight_direct(rgb, onelight_points);
+}

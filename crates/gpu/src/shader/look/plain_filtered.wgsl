@@ -1,0 +1,9 @@
+// What a plain look is bound to; an engine gives its own numbers of group and bindings.
+@group(0) @binding(0) var<uniform> onelight_look: OnelightPlain;
+@group(0) @binding(1) var onelight_table: texture_3d<f32>;
+@group(0) @binding(3) var onelight_filter: sampler;
+
+fn onelight_develop(rgb: vec3f) -> vec3f {
+    let coordinates = onelight_shaper(rgb, onelight_look);
+    return onelight_filtered(onelight_table, onelight_filter, coordinates, onelight_look.last);
+}

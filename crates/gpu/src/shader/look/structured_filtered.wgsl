@@ -1,0 +1,11 @@
+// What a structured look is bound to; an engine gives its own numbers of group and bindings.
+@group(0) @binding(0) var<uniform> onelight_look: OnelightStructured;
+@group(0) @binding(1) var onelight_table: texture_3d<f32>;
+@group(0) @binding(2) var onelight_points: texture_2d<f32>;
+@group(0) @binding(3) var onelight_filter: sampler;
+
+fn onelight_develop(rgb: vec3f) -> vec3f {
+    let coordinates = onelight_coordinates(rgb, onelight_look, onelight_points);
+    let entry = onelight_filtered(onelight_table, onelight_filter, coordinates, onelight_look.last);
+    return onelight_decode(entry, onelight_look);
+}
