@@ -17,7 +17,7 @@ const STARTS: [f64; 4] = [1.0, 0.7, 0.5, 0.3];
 /// The norm of misses that is made small, and for how many steps at most: first of all starts, then of the best one.
 const BROAD: (i32, usize) = (2, 24);
 const FINE: [(i32, usize); 3] = [(2, 8), (4, 10), (12, 20)];
-/// The norm by which the best start is chosen; starts are fitted to every so manieth sample.
+/// The norm by which the best start is chosen, and of how many samples starts are fitted to one.
 const CHOICE: i32 = 12;
 const CHOICE_EVERY: usize = 3;
 /// Levenberg and Marquardt's damping: at first, divided and multiplied by this after a step that did or did not help.
@@ -29,6 +29,8 @@ const TRIES: usize = 6;
 const LEAST_GAIN: f64 = 1e-4;
 
 /// The sum of `count` exponentials nearest to `full` as seen by `samples`: neither rates nor weights need belong to a wavelength.
+/// Bound to wavelengths, as many terms miss two to six times as much: 8 for the projection of Velvia 50 by 0.16 dE instead of
+/// 0.03, 4 for the duplication of 5207 by 0.42 instead of 0.06.
 ///
 /// Levenberg and Marquardt's method (\[Marquardt1963\]) on the p-norm of the misses, with the power p raised in steps: few
 /// large misses count for more and more.
