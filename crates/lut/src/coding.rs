@@ -1,4 +1,5 @@
 use crate::error::{Error, Kind};
+use crate::kernel::log2_exp2::{exp2, log2};
 
 /// The transfer curve of an output as two numbers: a power with a straight foot, odd about 0.
 ///
@@ -84,18 +85,49 @@ impl PowerCoding {
         linear.copysign(coded)
     }
 
-    /// [`PowerCoding::encode`] for pixel loops.
+    /// [`PowerCoding::encode`] for pixel loops, within 1e-6 of it.
     #[inline]
     pub fn encode_f32(&self, linear: f32) -> f32 {
-        if self.exponent == 1.0 {
+        self.numbers().encode(linear)
+    }
+
+    /// The curve in float32.
+    #[inline]
+    pub(crate) fn numbers(&self) -> PowerNumbers {
+        PowerNumbers {
+            power: (1.0 / self.exponent) as f32,
+            scale: (1.0 + self.offset) as f32,
+            offset: self.offset as f32,
+            slope: self.slope as f32,
+            end: self.end as f32,
+        }
+    }
+}
+
+/// A [`PowerCoding`] as pixel loops have it: `scale v^power - offset` above `end`, `slope v` below.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PowerNumbers {
+    pub(crate) power: f32,
+    pub(crate) scale: f32,
+    pub(crate) offset: f32,
+    pub(crate) slope: f32,
+    pub(crate) end: f32,
+}
+
+impl PowerNumbers {
+    /// Whether there is no coding.
+    #[inline]
+    pub(crate) fn is_linear(&self) -> bool {
+        self.power == 1.0
+    }
+
+    #[inline]
+    pub(crate) fn encode(&self, linear: f32) -> f32 {
+        if self.is_linear() {
             return linear;
         }
         let v = linear.abs();
-        let coded = if v <= self.end as f32 {
-            self.slope as f32 * v
-        } else {
-            (1.0 + self.offset) as f32 * v.powf((1.0 / self.exponent) as f32) - self.offset as f32
-        };
+        let coded = if v <= self.end { self.slope * v } else { self.scale * exp2(log2(v) * self.power) - self.offset };
         coded.copysign(linear)
     }
 }

@@ -51,6 +51,7 @@ mod fit;
 mod form;
 mod format;
 mod interpolate;
+mod kernel;
 mod lut1d;
 mod lut3d;
 mod pixels;

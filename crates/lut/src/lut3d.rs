@@ -8,6 +8,7 @@ use crate::interpolate::{Interpolation, Place, tetrahedral, trilinear};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lut3d {
     size: usize,
+    /// One more than the table has: whoever reads four numbers at once may do so at the last.
     entries: Vec<[f32; 3]>,
 }
 
@@ -23,7 +24,7 @@ impl Lut3d {
     /// # Errors
     ///
     /// If `size` is out of bounds, the number of entries is not `size`^3, or an entry is not finite.
-    pub fn new(size: usize, entries: Vec<[f32; 3]>) -> Result<Self, Error> {
+    pub fn new(size: usize, mut entries: Vec<[f32; 3]>) -> Result<Self, Error> {
         let expected = node_count(size)?;
         let found = entries.len();
         if found != expected {
@@ -31,7 +32,11 @@ impl Lut3d {
         }
         match first_not_finite(&entries) {
             Some(index) => Err(Kind::Entry3d { node: node_of(index, size), found: entries[index] }.into()),
-            None => Ok(Self { size, entries }),
+            None => {
+                entries.reserve_exact(1);
+                entries.push([0.0; 3]);
+                Ok(Self { size, entries })
+            }
         }
     }
 
@@ -54,7 +59,12 @@ impl Lut3d {
 
     /// All entries, red fastest.
     pub fn entries(&self) -> &[[f32; 3]] {
-        &self.entries
+        &self.entries[..self.entries.len() - 1]
+    }
+
+    /// The numbers of all entries, and three more.
+    pub(crate) fn numbers(&self) -> &[f32] {
+        self.entries.as_flattened()
     }
 
     /// Reads the table at coordinates in `[0, 1]`.
@@ -100,7 +110,7 @@ mod tests {
     const ROUNDING: f32 = 2e-6;
 
     fn filled(size: usize, f: impl Fn([f32; 3]) -> [f32; 3]) -> Lut3d {
-        let entries = Lut3d::identity(size).unwrap().entries;
+        let entries = Lut3d::identity(size).unwrap().entries().to_vec();
         Lut3d::new(size, entries.into_iter().map(f).collect()).unwrap()
     }
 
@@ -183,7 +193,7 @@ mod tests {
     fn greys_are_read_from_greys_by_tetrahedra() {
         // Entries off the diagonal are wild; trilinear sees them, tetrahedral does not.
         let size = 5;
-        let entries = Lut3d::identity(size).unwrap().entries;
+        let entries = Lut3d::identity(size).unwrap().entries().to_vec();
         let wild = entries.into_iter().map(|[x, y, z]| if x == y && y == z { [2.0 * x + 1.0; 3] } else { [50.0; 3] });
         let lut = Lut3d::new(size, wild.collect()).unwrap();
         for i in 0..=100 {

@@ -2,6 +2,7 @@ mod log2_offset;
 
 use crate::error::{Error, Kind};
 use log2_offset::Log2Offset;
+pub(crate) use log2_offset::LogNumbers;
 
 /// A monotone map from a scene-linear value in `[0, max]` to a table coordinate in `[0, 1]`, and back.
 ///
@@ -115,8 +116,14 @@ impl Shaper {
     /// [`Shaper::encode`] for pixel loops, within 3e-7 of it for shapers in use (`max / offset` of 20 and more).
     #[inline]
     pub fn encode_f32(&self, linear: f32) -> f32 {
+        self.numbers().encode(linear)
+    }
+
+    /// The curve in float32.
+    #[inline]
+    pub(crate) fn numbers(&self) -> &LogNumbers {
         match &self.0 {
-            Curve::Log2Offset(curve) => curve.encode_f32(linear),
+            Curve::Log2Offset(curve) => curve.numbers(),
         }
     }
 }

@@ -3,7 +3,13 @@ use glam::{Mat3, Vec3};
 use super::structured::{INPUT_MAX, LOG_FLOOR, Rows, check, matrix};
 use crate::coding::PowerCoding;
 use crate::error::{Error, Kind};
+use crate::kernel::curves::Curves;
+use crate::kernel::expose::expose;
+use crate::kernel::log2_exp2::{exp2, log2};
+use crate::kernel::sum::{coded_sum, log2_of_sum};
+use crate::kernel::{Block, BlockMap, Level};
 use crate::lut1d::Lut1d;
+use crate::pixels::map_colours;
 
 /// The direct form: no 3D table. Sums of a few exponentials stand for the light through each film.
 ///
@@ -19,6 +25,8 @@ pub struct DirectForm {
     parts: DirectParts,
     input: Mat3,
     exposure: Mat3,
+    curves: Curves,
+    print_curves: Option<Curves>,
 }
 
 /// What a [`DirectForm`] is made of.
@@ -91,7 +99,7 @@ impl ExponentialSum {
     pub fn apply(&self, x: [f32; 3]) -> [f32; 3] {
         let x = Vec3::from(x);
         let add =
-            |sum: Vec3, term: &ExponentialTerm| sum + Vec3::from(term.weight) * (-Vec3::from(term.rate).dot(x)).exp2();
+            |sum: Vec3, term: &ExponentialTerm| sum + Vec3::from(term.weight) * exp2(-Vec3::from(term.rate).dot(x));
         self.terms.iter().fold(Vec3::ZERO, add).to_array()
     }
 }
@@ -104,7 +112,9 @@ impl DirectForm {
     pub fn new(parts: DirectParts) -> Result<Self, Error> {
         check("input matrix", &parts.input)?;
         check("exposure matrix", &parts.exposure)?;
-        Ok(Self { input: matrix(&parts.input), exposure: matrix(&parts.exposure), parts })
+        let curves = Curves::new(&parts.curves);
+        let print_curves = parts.print.as_ref().map(|print| Curves::new(&print.curves));
+        Ok(Self { input: matrix(&parts.input), exposure: matrix(&parts.exposure), curves, print_curves, parts })
     }
 
     /// What it is made of.
@@ -117,13 +127,30 @@ impl DirectForm {
     pub fn apply(&self, linear: [f32; 3]) -> [f32; 3] {
         let finite = linear.map(|v| if v.is_nan() { 0.0 } else { v.clamp(-INPUT_MAX, INPUT_MAX) });
         let scene = (self.input * Vec3::from(finite)).clamp(Vec3::ZERO, Vec3::splat(INPUT_MAX));
-        let log2 = |exposure: [f32; 3]| exposure.map(|e| e.max(LOG_FLOOR).log2());
+        let log2 = |exposure: [f32; 3]| exposure.map(|e| log2(e.max(LOG_FLOOR)));
         let first = self.parts.curves.apply(log2((self.exposure * scene).to_array()));
         let shown = match &self.parts.print {
             Some(DirectPrint { exposure, curves }) => curves.apply(log2(exposure.apply(first))),
             None => first,
         };
         self.parts.projection.apply(shown).map(|v| self.parts.coding.encode_f32(v))
+    }
+
+    /// [`DirectForm::apply`] to every pixel in place, on all threads.
+    pub fn apply_to_slice(&self, pixels: &mut [[f32; 3]]) {
+        map_colours(self, pixels);
+    }
+}
+
+impl BlockMap for DirectForm {
+    fn map_block(&self, level: Level, block: &mut Block, count: usize) {
+        expose(level, &self.parts.input, &self.parts.exposure, block, count);
+        self.curves.apply(level, block, count);
+        if let (Some(print), Some(curves)) = (&self.parts.print, &self.print_curves) {
+            log2_of_sum(level, print.exposure.terms(), block, count);
+            curves.apply(level, block, count);
+        }
+        coded_sum(level, self.parts.projection.terms(), &self.parts.coding.numbers(), block, count);
     }
 }
 

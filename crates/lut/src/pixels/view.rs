@@ -63,6 +63,19 @@ impl Layout {
     pub(super) fn row_samples(self) -> usize {
         self.width * self.channels.count()
     }
+
+    /// From the first sample to the last.
+    pub(super) fn samples(self) -> usize {
+        match self.height {
+            0 => 0,
+            height => self.stride * (height - 1) + self.row_samples(),
+        }
+    }
+
+    /// Whether rows follow each other without a gap.
+    pub(super) fn is_dense(self) -> bool {
+        self.stride == self.row_samples()
+    }
 }
 
 impl<'a, S: Sample> Pixels<'a, S> {

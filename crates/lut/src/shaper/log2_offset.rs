@@ -1,3 +1,5 @@
+use crate::kernel::log2_exp2::log2;
+
 /// `t = log2(1 + u / offset) / log2(1 + max / offset)` on `[0, max]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Log2Offset {
@@ -5,9 +7,28 @@ pub(super) struct Log2Offset {
     max: f64,
     /// log2(1 + max / offset), stops.
     stops: f64,
-    max_f32: f32,
-    per_offset_f32: f32,
-    per_stop_f32: f32,
+    numbers: LogNumbers,
+}
+
+/// A [`Log2Offset`] as pixel loops have it: `log2(1 + per_offset u) per_stop`, 1 from `max` on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct LogNumbers {
+    pub(crate) max: f32,
+    pub(crate) per_offset: f32,
+    pub(crate) per_stop: f32,
+}
+
+impl LogNumbers {
+    #[inline]
+    pub(crate) fn encode(&self, linear: f32) -> f32 {
+        if linear >= self.max {
+            1.0
+        } else if linear > 0.0 {
+            (log2(1.0 + linear * self.per_offset) * self.per_stop).min(1.0)
+        } else {
+            0.0
+        }
+    }
 }
 
 impl Log2Offset {
@@ -18,9 +39,7 @@ impl Log2Offset {
             offset,
             max,
             stops,
-            max_f32: max as f32,
-            per_offset_f32: (1.0 / offset) as f32,
-            per_stop_f32: (1.0 / stops) as f32,
+            numbers: LogNumbers { max: max as f32, per_offset: (1.0 / offset) as f32, per_stop: (1.0 / stops) as f32 },
         }
     }
 
@@ -54,16 +73,8 @@ impl Log2Offset {
         }
     }
 
-    #[inline]
-    pub(super) fn encode_f32(&self, linear: f32) -> f32 {
-        if linear >= self.max_f32 {
-            1.0
-        } else if linear > 0.0 {
-            let stops = (1.0 + linear * self.per_offset_f32).log2();
-            (stops * self.per_stop_f32).min(1.0)
-        } else {
-            0.0
-        }
+    pub(super) fn numbers(&self) -> &LogNumbers {
+        &self.numbers
     }
 }
 

@@ -1,0 +1,33 @@
+//! The pixel loops: each step of a form over a block of pixels, one colour channel after the other, on whatever vector
+//! instructions the machine has.
+//!
+//! A step is written once for all levels (SSE2 to AVX-512, NEON, none), chosen at run time; the levels differ in rounding
+//! only. The scalar functions beside them are the definition.
+
+pub(crate) mod block;
+pub(crate) mod cells;
+pub(crate) mod coding;
+pub(crate) mod curves;
+pub(crate) mod expose;
+pub(crate) mod log2_exp2;
+pub(crate) mod lookup;
+pub(crate) mod matrix;
+pub(crate) mod shaper;
+pub(crate) mod sum;
+
+pub(crate) use block::{BLOCK, Block, BlockMap, Plane};
+pub(crate) use fearless_simd::Level;
+
+/// All levels that this machine can run.
+#[cfg(test)]
+pub(crate) fn levels() -> Vec<Level> {
+    let mut levels = vec![Level::fallback(), Level::new()];
+    #[cfg(target_arch = "x86_64")]
+    {
+        let best = Level::new();
+        levels.extend(best.as_sse2().map(Level::Sse2));
+        levels.extend(best.as_sse4_2().map(Level::Sse4_2));
+        levels.extend(best.as_avx2().map(Level::Avx2));
+    }
+    levels
+}
