@@ -12,6 +12,8 @@ pub(crate) enum Kind {
     Lut(onelight_lut::Error),
     Look { file: String, line: usize, problem: String },
     Word { what: &'static str, found: String, expected: String },
+    Number { what: &'static str, found: f64, low: f64, high: f64 },
+    Unreachable(String),
     UnknownStock { found: String, nearest: Option<&'static str> },
     Contradiction(String),
 }
@@ -26,7 +28,8 @@ impl Error {
     /// Whether the film cannot be brought to its aim.
     #[must_use]
     pub fn is_unreachable_aim(&self) -> bool {
-        matches!(&self.0, Kind::Printing(error) if error.is_unreachable_aim())
+        matches!(&self.0, Kind::Unreachable(_))
+            || matches!(&self.0, Kind::Printing(error) if error.is_unreachable_aim())
     }
 
     /// Whether the parts of the process contradict each other, as a print for a reversal film does.
@@ -40,10 +43,10 @@ impl Error {
         Kind::Contradiction(sentence).into()
     }
 
-    /// Whether a description could not be read: an unknown key or word, a wrong version, no TOML.
+    /// Whether a description could not be read: an unknown key or word, a number out of range, a wrong version, no TOML.
     #[must_use]
     pub fn is_look(&self) -> bool {
-        matches!(self.0, Kind::Look { .. } | Kind::Word { .. })
+        matches!(self.0, Kind::Look { .. } | Kind::Word { .. } | Kind::Number { .. })
     }
 }
 
@@ -92,7 +95,8 @@ impl fmt::Display for Error {
             Kind::UnknownStock { found, nearest: None } => {
                 write!(f, "no stock is called {found:?} (`cargo xtask stocks` lists all)")
             }
-            Kind::Contradiction(sentence) => f.write_str(sentence),
+            Kind::Number { what, found, low, high } => write!(f, "{what}: found {found}, expected {low} to {high}"),
+            Kind::Contradiction(sentence) | Kind::Unreachable(sentence) => f.write_str(sentence),
         }
     }
 }

@@ -51,6 +51,13 @@ impl ExposureMatrix {
         Ok(Self { matrix, matching: vector })
     }
 
+    /// The same film exposed so many stops more.
+    #[must_use]
+    pub fn overexposed(self, stops: f64) -> Self {
+        let factor = stops.exp2();
+        Self { matrix: self.matrix * factor, matching: self.matching.map(|c| c * factor) }
+    }
+
     /// Exposure of each layer for a scene RGB.
     #[must_use]
     pub fn expose(&self, rgb: [f64; 3]) -> PerLayer<f64> {
