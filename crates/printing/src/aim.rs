@@ -27,7 +27,11 @@ impl EquivalentNeutralDensity {
     /// # Errors
     /// If it is another.
     pub fn new(density: f64) -> Result<Self, Error> {
-        if (0.05..=3.0).contains(&density) { Ok(Self(density)) } else { Err(Kind::EndDensity { found: density }.into()) }
+        if (0.05..=3.0).contains(&density) {
+            Ok(Self(density))
+        } else {
+            Err(Kind::EndDensity { found: density }.into())
+        }
     }
 
     /// The number.

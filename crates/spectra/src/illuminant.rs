@@ -57,7 +57,8 @@ pub fn xenon_lamp(shape: SpectralShape) -> SpectralDistribution<Power> {
 
 fn read_xenon(shape: SpectralShape) -> Result<SpectralDistribution<Power>, Error> {
     let text = include_str!("../data/xenon_projector_kinoton_75p.csv");
-    let mut nodes = NumberTable::parse("xenon_projector_kinoton_75p.csv", text)?.nodes("wavelength_nm", "relative_power")?;
+    let mut nodes =
+        NumberTable::parse("xenon_projector_kinoton_75p.csv", text)?.nodes("wavelength_nm", "relative_power")?;
     let reference = nodes.at(560.0).unwrap_or(1.0);
     nodes.y.iter_mut().for_each(|v| *v /= reference);
     linear(&nodes, shape, Outside::Held)

@@ -77,52 +77,39 @@ impl ToneCurve {
         (&self.texels, self.first, self.first + self.step * (self.texels.len() - 1) as f64)
     }
 
-    /// The curve bent through points (stops about mid grey, coded value): smoothly between them, not at all at its ends.
+    /// The curve bent through points (stops about mid grey, coded value): values between two points move smoothly with them,
+    /// the darkest and the brightest stay.
     ///
     /// # Errors
-    /// If the points are too many, out of range, in the wrong order, or the bent curve would fall.
+    /// If the points are too many, out of order, where the curve is flat, or not between its darkest and brightest value.
     pub fn edited(&self, points: &[[f64; 2]]) -> Result<Self, Error> {
         if points.is_empty() {
             return Ok(self.clone());
         }
-        let refuse = |found: String, expected: &str| {
-            Error::from(Kind::Word { what: "first.curve", found, expected: expected.to_owned() })
-        };
+        let refuse = |found: String, expected: String| Error::from(Kind::Word { what: "first.curve", found, expected });
         if points.len() > MAX_POINTS {
-            return Err(refuse(format!("{} points", points.len()), "at most 16"));
+            return Err(refuse(format!("{} points", points.len()), format!("at most {MAX_POINTS}")));
         }
-        let (_, first, last) = self.texels();
-        let mut nodes = vec![(first, 0.0)];
+        let (darkest, brightest) = (self.texels[0], self.texels[self.texels.len() - 1]);
+        // From the film's own value to the one wanted.
+        let mut nodes = vec![(darkest, darkest)];
         for [stops, value] in points.iter().copied() {
-            let at = stops * std::f64::consts::LOG10_2;
             let shown = format!("{stops} stops, {value}");
-            if !(at > first && at < last) {
-                let range = (first / std::f64::consts::LOG10_2, last / std::f64::consts::LOG10_2);
-                return Err(refuse(shown, &format!("stops between {:.1} and {:.1}", range.0, range.1)));
+            let (own, (last_own, last)) = (self.at(stops * std::f64::consts::LOG10_2), nodes[nodes.len() - 1]);
+            if !(own > last_own && own < brightest) {
+                return Err(refuse(shown, "stops that increase, where the film's curve rises".to_owned()));
             }
-            if !(0.0..=1.0).contains(&value) {
-                return Err(refuse(shown, "a value from 0 to 1"));
+            if !(value >= last && value <= brightest) {
+                return Err(refuse(shown, format!("values that rise from {darkest:.3} to {brightest:.3}")));
             }
-            if nodes.last().is_some_and(|(before, _)| at <= *before) {
-                return Err(refuse(shown, "stops that increase"));
-            }
-            nodes.push((at, value - self.at(at)));
+            nodes.push((own, value));
         }
-        nodes.push((last, 0.0));
+        nodes.push((brightest, brightest));
         let (x, y) = nodes.into_iter().unzip();
         let bend = Pchip::new(x, y)?;
-        let texels: Vec<f64> =
-            (0..).zip(&self.texels).map(|(i, v)| v + bend.at(first + self.step * f64::from(i))).collect();
-        if let Some(i) = texels.windows(2).position(|pair| pair[1] < pair[0] - FALL) {
-            let stops = (first + self.step * i as f64) / std::f64::consts::LOG10_2;
-            return Err(refuse(format!("a curve that falls at {stops:+.1} stops"), "points it can rise through"));
-        }
-        Ok(Self { texels, ..*self })
+        Ok(Self { texels: self.texels.iter().map(|v| bend.at(*v)).collect(), ..*self })
     }
 }
-
-/// A fall smaller than this between two texels cannot be seen.
-const FALL: f64 = 1e-4;
 
 fn reached(
     stock: &Stock,
@@ -180,13 +167,21 @@ mod tests {
     #[test]
     fn edits_that_make_no_curve_are_named() {
         let message = |points: &[[f64; 2]]| velvia().edited(points).unwrap_err().to_string();
-        assert!(message(&[[0.0, 0.9], [1.0, 0.2]]).contains("falls at"));
-        assert!(message(&[[1.0, 0.5], [0.0, 0.6]]).contains("increase"));
-        assert!(message(&[[0.0, 1.5]]).contains("0 to 1"));
-        assert!(message(&[[99.0, 0.5]]).contains("stops between"));
+        assert!(message(&[[0.0, 0.7], [1.0, 0.2]]).contains("values that rise"));
+        assert!(message(&[[1.0, 0.5], [0.0, 0.6]]).contains("stops that increase"));
+        assert!(message(&[[0.0, 1.5]]).contains("values that rise"));
+        assert!(message(&[[99.0, 0.5]]).contains("curve rises"));
         assert!(
-            message(&[[f64::NAN, 0.5]]).contains("stops between") && message(&[[0.0, f64::NAN]]).contains("0 to 1")
+            message(&[[f64::NAN, 0.5]]).contains("stops that") && message(&[[0.0, f64::NAN]]).contains("values that")
         );
         assert!(message(&[[0.0, 0.5]; 17]).contains("at most 16"));
+    }
+
+    #[test]
+    fn an_edited_curve_never_falls() {
+        for points in [&[[0.0, 0.8]][..], &[[-3.0, 0.1], [-1.0, 0.1], [2.0, 0.84]], &[[1.0, 0.06]]] {
+            let bent = velvia().edited(points).unwrap();
+            assert!(bent.texels().0.windows(2).all(|pair| pair[1] >= pair[0]), "{points:?}");
+        }
     }
 }

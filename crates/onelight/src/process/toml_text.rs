@@ -243,7 +243,7 @@ mod tests {
             "look.toml:2: unknown key \"camera x\", did you mean \"camera\"?"
         );
         let far = message("version = 1\nzzz = 3\n");
-        assert!(far.starts_with("look.toml:2: unknown key \"zzz\", expected one of version, camera,"), "{far}");
+        assert!(far.starts_with("look.toml:2: unknown key \"zzz\", expected one of version, approach,"), "{far}");
         assert!(message(&format!("version = 1\n{} = 3\n", "z".repeat(1000))).len() < 400);
         assert_eq!(
             message("version = 1\nprint = \"NONE\"\n"),
