@@ -12,8 +12,8 @@ pub(crate) enum Kind {
     Lut(onelight_lut::Error),
     Look { file: String, line: usize, problem: String },
     Word { what: &'static str, found: String, expected: String },
-    Number { what: &'static str, found: f64, low: f64, high: f64 },
     Unreachable(String),
+    Setting { what: String, found: f64, expected: String },
     UnknownStock { found: String, nearest: Option<&'static str> },
     Contradiction(String),
 }
@@ -38,15 +38,25 @@ impl Error {
         matches!(&self.0, Kind::Contradiction(_)) || matches!(&self.0, Kind::Printing(error) if error.is_wrong_kind())
     }
 
+    /// Whether a number lay outside its range.
+    #[must_use]
+    pub fn is_setting(&self) -> bool {
+        matches!(self.0, Kind::Setting { .. })
+    }
+
+    pub(crate) fn setting(what: &str, found: f64, low: f64, high: f64) -> Self {
+        Kind::Setting { what: what.to_owned(), found, expected: format!("{low} to {high}") }.into()
+    }
+
     pub(crate) fn print_film_in_camera(id: &str) -> Self {
         let sentence = format!("{id} is a print film, expected a negative or reversal film in the camera");
         Kind::Contradiction(sentence).into()
     }
 
-    /// Whether a description could not be read: an unknown key or word, a number out of range, a wrong version, no TOML.
+    /// Whether a description could not be read: an unknown key or word, a wrong version, no TOML.
     #[must_use]
     pub fn is_look(&self) -> bool {
-        matches!(self.0, Kind::Look { .. } | Kind::Word { .. } | Kind::Number { .. })
+        matches!(self.0, Kind::Look { .. } | Kind::Word { .. })
     }
 }
 
@@ -89,13 +99,13 @@ impl fmt::Display for Error {
             Kind::Lut(error) => error.fmt(f),
             Kind::Look { file, line, problem } => write!(f, "{file}:{line}: {problem}"),
             Kind::Word { what, found, expected } => write!(f, "{what}: found {found:?}, expected {expected}"),
+            Kind::Setting { what, found, expected } => write!(f, "{what}: found {found}, expected {expected}"),
             Kind::UnknownStock { found, nearest: Some(nearest) } => {
                 write!(f, "no stock is called {found:?}; the nearest is {nearest} (`cargo xtask stocks` lists all)")
             }
             Kind::UnknownStock { found, nearest: None } => {
                 write!(f, "no stock is called {found:?} (`cargo xtask stocks` lists all)")
             }
-            Kind::Number { what, found, low, high } => write!(f, "{what}: found {found}, expected {low} to {high}"),
             Kind::Contradiction(sentence) | Kind::Unreachable(sentence) => f.write_str(sentence),
         }
     }

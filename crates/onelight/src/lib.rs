@@ -18,6 +18,8 @@
 //! of the repository.
 
 mod approach;
+mod bake;
+mod direct;
 mod error;
 mod process;
 mod reference;
@@ -27,6 +29,7 @@ mod structured;
 mod word;
 
 pub use approach::{Approach, Baseline, FirstApproach, FirstControls, Look, PostColour, ToneCurve};
+pub use direct::{DirectSettings, Nodes};
 pub use error::Error;
 pub use onelight_film as film;
 pub use onelight_film::{DyeModel, Matching, Stock, StockKind, Tail};

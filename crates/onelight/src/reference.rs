@@ -215,6 +215,18 @@ impl Reference {
         self.coding
     }
 
+    pub(crate) fn output(&self) -> &RgbSpace {
+        &self.output
+    }
+
+    pub(crate) fn projection(&self) -> &Projection {
+        &self.projection
+    }
+
+    pub(crate) fn duplication(&self) -> Option<&LitDuplication> {
+        self.print.as_ref().map(|print| &print.duplication)
+    }
+
     pub(crate) fn to_srgb(&self) -> &Matrix3<f64> {
         self.scene.to_srgb()
     }

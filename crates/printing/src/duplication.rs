@@ -117,7 +117,7 @@ impl Duplication {
     pub fn lit(&self, lights: PrinterLights) -> LitDuplication {
         let g = lights.0.to_array();
         let [c, m, y] = self.dyes.dyes().map(SpectralDistribution::values).to_array();
-        let rows = (0..c.len()).map(|i| Row {
+        let rows = (0..c.len()).map(|i| SpectralRow {
             dyes: [c[i], m[i], y[i]],
             base: self.dyes.d_min().map_or(0.0, |d| d.values()[i]),
             weights: std::array::from_fn(|j| (0..3).map(|k| g[k] * self.weights[j][k][i]).sum()),
@@ -150,21 +150,25 @@ fn only_its_own(mut weights: [[Vec<f64>; 3]; 3]) -> [[Vec<f64>; 3]; 3] {
 /// A [`Duplication`] with its lights set: what a picture goes through.
 #[derive(Debug, Clone)]
 pub struct LitDuplication {
-    rows: Vec<Row>,
+    rows: Vec<SpectralRow>,
 }
 
-/// What happens at one wavelength: three unit densities, the base, and what a layer makes of the light that passes.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Row {
-    pub(crate) dyes: [f64; 3],
-    pub(crate) base: f64,
-    pub(crate) weights: [f64; 3],
+/// What a film and its light do at one wavelength: the light that passes adds `weights * 10^-(base + dyes . amounts)` to three
+/// sums, which are exposures or tristimulus values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpectralRow {
+    /// Density of one unit of each dye: cyan, magenta, yellow.
+    pub dyes: [f64; 3],
+    /// Density of the film without any.
+    pub base: f64,
+    /// What each sum gets of light that passes unhindered; step of the grid and trapezoid included.
+    pub weights: [f64; 3],
 }
 
 /// Sum over wavelengths of weights times 10^-(base + dyes . amounts).
-pub(crate) fn transmitted(rows: &[Row], amounts: [f64; 3]) -> [f64; 3] {
+pub(crate) fn transmitted(rows: &[SpectralRow], amounts: [f64; 3]) -> [f64; 3] {
     let mut sum = [0.0; 3];
-    for Row { dyes, base, weights } in rows {
+    for SpectralRow { dyes, base, weights } in rows {
         let density = base + dyes[0] * amounts[0] + dyes[1] * amounts[1] + dyes[2] * amounts[2];
         let passed = (-std::f64::consts::LN_10 * density).exp();
         for (sum, weight) in sum.iter_mut().zip(weights) {
@@ -179,6 +183,12 @@ impl LitDuplication {
     #[must_use]
     pub fn expose(&self, amounts: PerLayer<DyeAmount>) -> PerLayer<LogExposure> {
         PerLayer::from(transmitted(&self.rows, amounts.map(|a| a.0).to_array())).map(LogExposure::of)
+    }
+
+    /// Wavelength by wavelength, by 1 nm: the sums are the exposures of the print's red, green and blue layer.
+    #[must_use]
+    pub fn rows(&self) -> &[SpectralRow] {
+        &self.rows
     }
 }
 

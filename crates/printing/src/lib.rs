@@ -43,7 +43,7 @@ mod printer;
 mod projection;
 
 pub use aim::{Aim, EquivalentNeutralDensity, NEUTRAL_DENSITY, print_mid_grey, print_target, reversal_target};
-pub use duplication::{Calibration, Duplication, LitDuplication};
+pub use duplication::{Calibration, Duplication, LitDuplication, SpectralRow};
 pub use error::Error;
 pub use filter::{HeatGlass, Wratten};
 pub use printer::{Filters, Infrared, POINT_LOG_EXPOSURE, Printer, PrinterLight, PrinterLights};

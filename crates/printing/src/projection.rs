@@ -5,7 +5,7 @@ use onelight_spectra::{
     Chromaticity, Kelvin, Observer, RgbSpace, SpectralDistribution, SpectralShape, black_body, xenon_lamp,
 };
 
-use crate::duplication::{Row, transmitted};
+use crate::duplication::{SpectralRow, transmitted};
 use crate::error::{Error, Kind};
 
 /// The light that a print or a reversal film is seen by.
@@ -40,7 +40,7 @@ pub struct Projection {
     lamp: SpectralDistribution<Power>,
     lamp_xyz: Vector3<f64>,
     to_rgb: Matrix3<f64>,
-    rows: Vec<Row>,
+    rows: Vec<SpectralRow>,
 }
 
 /// Newton's method ends when the relative error of the light is this small.
@@ -72,7 +72,7 @@ impl Projection {
         let [c, m, yellow] = dyes.dyes().map(SpectralDistribution::values).to_array();
         let rows = shape.trapezoid_weights_nm().enumerate().map(|(i, nm)| {
             let light = nm * lamp.values()[i];
-            Row {
+            SpectralRow {
                 dyes: [c[i], m[i], yellow[i]],
                 base: dyes.d_min().map_or(0.0, |d| d.values()[i]),
                 weights: [x, y, z].map(|f| light * f.values()[i]),
@@ -92,6 +92,12 @@ impl Projection {
     #[must_use]
     pub fn xyz(&self, amounts: PerLayer<DyeAmount>) -> Vector3<f64> {
         Vector3::from(transmitted(&self.rows, amounts.map(|a| a.0).to_array()))
+    }
+
+    /// Wavelength by wavelength, by 1 nm: the sums are the tristimulus values.
+    #[must_use]
+    pub fn rows(&self) -> &[SpectralRow] {
+        &self.rows
     }
 
     /// Display-linear RGB of tristimulus values.
@@ -133,7 +139,7 @@ impl Projection {
 
     fn xyz_and_slope(&self, amounts: Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
         let (mut xyz, mut slope) = (Vector3::zeros(), Matrix3::zeros());
-        for Row { dyes, base, weights } in &self.rows {
+        for SpectralRow { dyes, base, weights } in &self.rows {
             let dyes = Vector3::from(*dyes);
             let light = Vector3::from(*weights) * 10f64.powf(-(base + dyes.dot(&amounts)));
             xyz += light;

@@ -1,8 +1,8 @@
 //! Offset and range of the plain form's shaper, fitted to a look or to a scene.
 
 use anyhow::Result;
-use onelight::Reference;
-use onelight::lut::{Interpolation, PlainLut, SceneSampler, Shaper, bake};
+use onelight::lut::{DirectForm, Interpolation, PlainLut, SceneSampler, Shaper, bake_form};
+use onelight::{DirectSettings, Nodes, Reference};
 use rayon::prelude::*;
 
 /// What a shaper is fitted to.
@@ -89,18 +89,21 @@ fn golden(f: impl Fn(f64) -> Result<f64>) -> Result<(f64, f64)> {
 /// Colours and what the film makes of them.
 struct Trial<'a> {
     film: &'a Reference,
+    /// Bakes the tables: what it misses is small beside what they do.
+    baking: DirectForm,
     pairs: Vec<([f64; 3], [f64; 3])>,
 }
 
 impl<'a> Trial<'a> {
     fn new(film: &'a Reference, colours: &[[f64; 3]]) -> Result<Self> {
-        Ok(Self { film, pairs: colours.par_iter().map(|&rgb| (rgb, film.develop_linear(rgb))).collect() })
+        let baking = film.direct(&DirectSettings { nodes: Nodes::Grid { step_nm: 10 } })?;
+        Ok(Self { film, baking, pairs: colours.par_iter().map(|&rgb| (rgb, film.develop_linear(rgb))).collect() })
     }
 
     /// Mean difference of a small table, and a hundredth of the largest: clipped colours are few.
     fn error(&self, exponent: f64, max: f64) -> Result<f64> {
         let shaper = shaper(exponent, max)?;
-        let table = bake(TRIAL_SIZE, &shaper, |rgb| self.film.develop(rgb), |_| {})?;
+        let table = bake_form(TRIAL_SIZE, |t| t.map(|t| shaper.decode(t)), &self.baking)?;
         let lut = PlainLut::new(shaper, table, Interpolation::Tetrahedral);
         let difference = self.film.difference()?;
         let read = |rgb: [f64; 3]| lut.apply(rgb.map(|v| v as f32)).map(|v| self.film.coding().decode(f64::from(v)));

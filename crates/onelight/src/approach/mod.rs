@@ -5,7 +5,9 @@ mod first;
 mod post;
 mod tone_curve;
 
+use onelight_lut::Lut3d;
 use onelight_spectra::{DisplayDifference, TransferCurve};
+use rayon::prelude::*;
 
 pub use baseline::Baseline;
 pub use first::FirstApproach;
@@ -106,6 +108,24 @@ impl Look {
             Self::First(first) => first.difference(),
             Self::Baseline(baseline) => baseline.difference(),
         }
+    }
+
+    /// A table of display-coded entries for a plain form; `at` gives the scene-linear colour for coordinates from 0 to 1. A
+    /// film's is [`Reference::bake`].
+    ///
+    /// # Errors
+    /// If the size is out of bounds.
+    pub fn bake(&self, size: usize, at: impl Fn([f64; 3]) -> [f64; 3] + Sync) -> Result<Lut3d, Error> {
+        if let Self::Film(film) = self {
+            return film.bake(size, at);
+        }
+        // Checks the size before anything is allocated.
+        let nodes = Lut3d::identity(size)?.entries().len();
+        let place = |i: usize| i as f64 / (size - 1) as f64;
+        let entry = |i: usize| {
+            self.develop(at([place(i % size), place(i / size % size), place(i / size / size)])).map(|v| v as f32)
+        };
+        Ok(Lut3d::new(size, (0..nodes).into_par_iter().map(entry).collect())?)
     }
 
     /// The exact film, for what only it has: stages, curves, the forms whose axes they are.

@@ -3,7 +3,7 @@ use onelight_printing::NEUTRAL_DENSITY;
 use onelight_spectra::{Kelvin, TransferCurve, lamp_rgb_w_per_m2};
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, Kind};
+use crate::error::Error;
 
 /// What a hand can change in the first approach: the table `[first]` of `look.toml`. The defaults change nothing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -45,7 +45,7 @@ impl PostColour {
     /// If a control is out of its range.
     pub fn new(controls: &FirstControls) -> Result<Self, Error> {
         let within = |what, found: f64, low: f64, high: f64| {
-            if (low..=high).contains(&found) { Ok(found) } else { Err(Kind::Number { what, found, low, high }) }
+            if (low..=high).contains(&found) { Ok(found) } else { Err(Error::setting(what, found, low, high)) }
         };
         let contrast = within("first.contrast", controls.contrast, 0.0, 4.0)?;
         let brightness = within("first.brightness", controls.brightness, -1.0, 1.0)?;

@@ -60,7 +60,7 @@ fn numbers(process: &Process) -> Result<(), Error> {
         .chain(each("points", process.points, -50.0, 50.0));
     for (what, found, low, high) in all {
         if !(low..=high).contains(&found) {
-            return Err(Kind::Number { what, found, low, high }.into());
+            return Err(Error::setting(what, found, low, high));
         }
     }
     Ok(())

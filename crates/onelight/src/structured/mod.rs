@@ -14,6 +14,7 @@ use rayon::prelude::*;
 use crate::error::Error;
 use crate::reference::Reference;
 use axes::Axes;
+pub(crate) use axes::over_log2;
 
 /// Where the entries of a table come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -181,7 +182,7 @@ impl Encode<'_> {
 
 /// Every fourth colour is moved to full saturation and every sixteenth to a primary or secondary: the edges of what light
 /// can reach, where chance seldom falls and differences are largest.
-fn towards_the_edge(i: usize, rgb: [f64; 3]) -> [f64; 3] {
+pub(crate) fn towards_the_edge(i: usize, rgb: [f64; 3]) -> [f64; 3] {
     let mut order = [0, 1, 2];
     order.sort_by(|&a, &b| rgb[b].total_cmp(&rgb[a]));
     let [most, middle, least] = order;
@@ -197,11 +198,11 @@ fn towards_the_edge(i: usize, rgb: [f64; 3]) -> [f64; 3] {
     moved
 }
 
-fn rows(matrix: &Matrix3<f64>) -> Rows {
+pub(crate) fn rows(matrix: &Matrix3<f64>) -> Rows {
     std::array::from_fn(|i| std::array::from_fn(|k| matrix[(i, k)] as f32))
 }
 
-fn coding(curve: TransferCurve) -> PowerCoding {
+pub(crate) fn coding(curve: TransferCurve) -> PowerCoding {
     let (exponent, offset) = match curve {
         TransferCurve::Linear => return PowerCoding::LINEAR,
         TransferCurve::Srgb => (2.4, 0.055),
