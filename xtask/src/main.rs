@@ -14,6 +14,7 @@ mod preview;
 mod progress;
 mod scene;
 mod scene_colours;
+mod switches;
 mod truth;
 mod whole;
 

@@ -5,7 +5,7 @@ use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use onelight::spectra::Chromaticity;
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
-use onelight::{Process, Reference, TransferCurve, Word};
+use onelight::{Look, Process, TransferCurve, Word};
 use rayon::prelude::*;
 use serde_json::json;
 
@@ -106,7 +106,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         notes.push(format!("an EXR holds linear light: not coded by {}", process.output_coding.word()));
         process.output_coding = TransferCurve::Linear;
     }
-    let film = clock.time("compile", || process.compile())?;
+    let film = clock.time("compile", || process.look())?;
     let mut picture = clock.time("read", || picture::read(&arguments.input, &Limits::default()))?;
     notes.append(&mut picture.notes);
     let to_input = to_input_space(&picture, &process, arguments, &mut notes)?;
@@ -248,13 +248,7 @@ fn log_average(picture: &Picture, to_input: &Matrix3<f64>, process: &Process) ->
 }
 
 /// Scene-linear to display-coded, in place.
-fn develop(
-    picture: &mut Picture,
-    film: &Reference,
-    process: &Process,
-    form: Form,
-    notes: &mut Vec<String>,
-) -> Result<()> {
+fn develop(picture: &mut Picture, film: &Look, process: &Process, form: Form, notes: &mut Vec<String>) -> Result<()> {
     let recipe = match form {
         Form::Reference => {
             let progress = bar("developing", picture.rgb.len() as u64);

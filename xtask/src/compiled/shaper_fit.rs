@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use onelight::lut::{DirectForm, Interpolation, PlainLut, SceneSampler, Shaper, bake_form};
-use onelight::{DirectSettings, Nodes, Reference};
+use onelight::{DirectSettings, Look, Nodes};
 use rayon::prelude::*;
 
 /// What a shaper is fitted to.
@@ -33,7 +33,7 @@ fn corners(peak: f64) -> impl Iterator<Item = [f64; 3]> {
 }
 
 /// The shaper whose table comes nearest to the film.
-pub(crate) fn fitted_to(film: &Reference, target: &Fitted) -> Result<Shaper> {
+pub(crate) fn fitted_to(film: &Look, target: &Fitted) -> Result<Shaper> {
     let (colours, ranges): (Vec<[f64; 3]>, Vec<f64>) = match target {
         Fitted::Look { stops } => {
             let ranges = stops.map_or(RANGES.to_vec(), |stops| vec![stops]);
@@ -88,22 +88,29 @@ fn golden(f: impl Fn(f64) -> Result<f64>) -> Result<(f64, f64)> {
 
 /// Colours and what the film makes of them.
 struct Trial<'a> {
-    film: &'a Reference,
-    /// Bakes the tables: what it misses is small beside what they do.
-    baking: DirectForm,
+    film: &'a Look,
+    /// Bakes the tables of a film: what it misses is small beside what they do.
+    baking: Option<DirectForm>,
     pairs: Vec<([f64; 3], [f64; 3])>,
 }
 
 impl<'a> Trial<'a> {
-    fn new(film: &'a Reference, colours: &[[f64; 3]]) -> Result<Self> {
-        let baking = film.direct(&DirectSettings { nodes: Nodes::Grid { step_nm: 10 } })?;
+    fn new(film: &'a Look, colours: &[[f64; 3]]) -> Result<Self> {
+        let baking = match film {
+            Look::Film(film) => Some(film.direct(&DirectSettings { nodes: Nodes::Grid { step_nm: 10 } })?),
+            Look::First(_) | Look::Baseline(_) => None,
+        };
         Ok(Self { film, baking, pairs: colours.par_iter().map(|&rgb| (rgb, film.develop_linear(rgb))).collect() })
     }
 
     /// Mean difference of a small table, and a hundredth of the largest: clipped colours are few.
     fn error(&self, exponent: f64, max: f64) -> Result<f64> {
         let shaper = shaper(exponent, max)?;
-        let table = bake_form(TRIAL_SIZE, |t| t.map(|t| shaper.decode(t)), &self.baking)?;
+        let at = |t: [f64; 3]| t.map(|t| shaper.decode(t));
+        let table = match &self.baking {
+            Some(form) => bake_form(TRIAL_SIZE, at, form)?,
+            None => self.film.bake(TRIAL_SIZE, at)?,
+        };
         let lut = PlainLut::new(shaper, table, Interpolation::Tetrahedral);
         let difference = self.film.difference()?;
         let read = |rgb: [f64; 3]| lut.apply(rgb.map(|v| v as f32)).map(|v| self.film.coding().decode(f64::from(v)));
