@@ -11,6 +11,13 @@ pub(crate) struct Case {
     scale: f64,
 }
 
+impl Case {
+    /// Scene light as it comes back from the buffer.
+    pub(crate) fn stored(&self, rgb: [f64; 3]) -> [f64; 3] {
+        self.format.quantise(rgb.map(|v| v * self.scale)).map(|v| v / self.scale)
+    }
+}
+
 /// The buffers that are compared: as they are, and with the talk's scale factor for the small float.
 pub(crate) const CASES: [Case; 7] = [
     Case { name: "8 bit linear, white at 4", format: BufferFormat::Unorm8, scale: 0.25 },
@@ -32,7 +39,7 @@ pub(crate) fn largest_step(case: &Case, film: &Look) -> anyhow::Result<f64> {
     let (mut largest, mut last) = (0f64, None::<([f64; 3], [f64; 3])>);
     for i in 0..=RAMP_STEPS {
         let stops = RAMP_STOPS.0 + (RAMP_STOPS.1 - RAMP_STOPS.0) * f64::from(i) / f64::from(RAMP_STEPS);
-        let stored = case.format.quantise([0.18 * stops.exp2() * case.scale; 3]).map(|v| v / case.scale);
+        let stored = case.stored([0.18 * stops.exp2(); 3]);
         if last.is_some_and(|(value, _)| value == stored) {
             continue;
         }

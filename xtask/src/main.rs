@@ -6,6 +6,7 @@ mod command;
 mod compiled;
 mod direct_file;
 mod export;
+mod exposure;
 mod folders;
 mod look;
 mod picture;
@@ -14,6 +15,7 @@ mod preview;
 mod progress;
 mod scene;
 mod scene_colours;
+mod sheet;
 mod switches;
 mod truth;
 mod whole;
@@ -44,6 +46,10 @@ enum Command {
     Stocks(command::stocks::Arguments),
     /// Render the fixture scene, and measure what going through RGB costs
     Fixtures(command::fixtures::Arguments),
+    /// Turn lux, lumen and kelvin into W/m^2 RGB, and say what a camera makes of it
+    Light(command::light::Arguments),
+    /// Put the looks and switches of the talk side by side: contact sheets and a page
+    Compare(command::compare::Arguments),
     /// Check the layers of the workspace against ARCHITECTURE.md
     Tidy(command::tidy::Arguments),
 }
@@ -82,6 +88,8 @@ fn run(command: Command) -> Result<Report> {
         Command::Develop(arguments) => command::develop::run(&arguments),
         Command::Stocks(arguments) => command::stocks::run(&arguments),
         Command::Fixtures(arguments) => command::fixtures::run(&arguments),
+        Command::Light(arguments) => command::light::run(&arguments),
+        Command::Compare(arguments) => command::compare::run(&arguments),
         Command::Tidy(arguments) => command::tidy::run(&arguments),
     }
 }

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use serde_json::json;
 
 use crate::compiled::{self, Compiled, Recipe};
+use crate::exposure::ExposureArguments;
 use crate::look::{LookArguments, words};
 use crate::picture::{
     self, Bits, Chromaticities, Coding, ColourTag, Limits, Picture, Samples, Source, write_exr, write_png,
@@ -32,6 +33,8 @@ pub(crate) struct Arguments {
     output: PathBuf,
     #[command(flatten)]
     look: LookArguments,
+    #[command(flatten)]
+    exposure: ExposureArguments,
     /// Exposure in stops, or auto: the log average of the picture comes to 0.18
     #[arg(long, default_value = "0", value_name = "STOPS|auto", allow_hyphen_values = true)]
     ev: Exposure,
@@ -185,6 +188,14 @@ fn prepare(
     };
     if coding != TransferCurve::Linear {
         picture.rgb.par_iter_mut().for_each(|rgb| *rgb = rgb.map(|v| coding.decode(f64::from(v)) as f32));
+    }
+    let exposure = arguments.exposure.resolve(process)?;
+    if exposure.is_metered() && arguments.ev == Exposure::Auto {
+        bail!("--ev auto exposes by the picture: the camera's settings change nothing, expected one or the other");
+    }
+    notes.extend(exposure.notes.iter().cloned());
+    if !exposure.changes_nothing() {
+        picture.rgb.par_iter_mut().for_each(|rgb| *rgb = exposure.apply(*rgb));
     }
     let hard = picture.rgb.par_iter().filter(|rgb| rgb.iter().any(|v| !v.is_finite())).count();
     if hard > 0 {

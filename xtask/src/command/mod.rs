@@ -2,7 +2,9 @@
 
 pub(crate) mod bake;
 pub(crate) mod certify;
+pub(crate) mod compare;
 pub(crate) mod develop;
 pub(crate) mod fixtures;
+pub(crate) mod light;
 pub(crate) mod stocks;
 pub(crate) mod tidy;
