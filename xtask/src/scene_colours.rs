@@ -7,7 +7,7 @@ use onelight::Process;
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Chromaticity, RgbSpace};
 
-use crate::picture::{Limits, Picture, Source, read as read_picture};
+use crate::picture::{Band, Chromaticities, Limits, PictureReader, Source, open};
 
 /// Colours taken from all pictures together, evenly spread over their pixels.
 const COLOURS: usize = 1 << 14;
@@ -19,12 +19,13 @@ pub(crate) fn read(paths: &[PathBuf], process: &Process) -> Result<Option<Vec<[f
     }
     let mut colours = Vec::new();
     for path in paths {
-        let picture = read_picture(path, &Limits::default())?;
-        if picture.source != Source::Exr {
+        let mut picture = open(path, &Limits::default())?;
+        if picture.description().source != Source::Exr {
             bail!("{}: --scene takes scene-linear pictures, expected an EXR", path.display());
         }
-        let some = some_of(&picture, process, COLOURS.div_ceil(paths.len()));
-        colours.extend(some.with_context(|| path.display().to_string())?);
+        let to_input = to_input_space(picture.description().primaries.as_ref(), process);
+        let to_input = to_input.with_context(|| path.display().to_string())?;
+        colours.extend(some_of(&mut picture, to_input, COLOURS.div_ceil(paths.len()))?);
     }
     if colours.is_empty() {
         bail!("the pictures of --scene hold no finite colour, expected at least one");
@@ -34,8 +35,8 @@ pub(crate) fn read(paths: &[PathBuf], process: &Process) -> Result<Option<Vec<[f
 
 /// From a picture's own primaries to those a process takes; `None` where the file names none. Its white is taken for the
 /// scene's white: primaries count, the white point does not.
-pub(crate) fn to_input_space(picture: &Picture, process: &Process) -> Result<Option<Matrix3<f64>>> {
-    let Some(c) = &picture.primaries else { return Ok(None) };
+pub(crate) fn to_input_space(own: Option<&Chromaticities>, process: &Process) -> Result<Option<Matrix3<f64>>> {
+    let Some(c) = own else { return Ok(None) };
     let xy = |[x, y]: [f32; 2]| (f64::from(x), f64::from(y));
     let white = Chromaticity::new(f64::from(c.white[0]), f64::from(c.white[1]));
     let space = RgbSpace::new([xy(c.red), xy(c.green), xy(c.blue)], white);
@@ -43,14 +44,22 @@ pub(crate) fn to_input_space(picture: &Picture, process: &Process) -> Result<Opt
     matrix.map(Some).context("its chromaticities")
 }
 
-fn some_of(picture: &Picture, process: &Process, count: usize) -> Result<Vec<[f64; 3]>> {
-    let to_input = to_input_space(picture, process)?;
-    let every = picture.rgb.len().div_ceil(count).max(1);
-    let finite = picture.rgb.iter().step_by(every).filter(|rgb| rgb.iter().all(|v| v.is_finite()));
-    Ok(finite
-        .map(|rgb| {
+/// About `count` colours of a picture, as far apart as can be in the order of its rows.
+fn some_of(picture: &mut PictureReader, to_input: Option<Matrix3<f64>>, count: usize) -> Result<Vec<[f64; 3]>> {
+    let pixels = picture.description().width * picture.description().height;
+    let every = pixels.div_ceil(count).max(1);
+    let (mut colours, mut band) = (Vec::new(), Band::default());
+    loop {
+        picture.next_into(&mut band)?;
+        if band.rgb.is_empty() {
+            return Ok(colours);
+        }
+        // The first of the band that is a multiple of `every` in the picture.
+        let first = (band.top * band.width).next_multiple_of(every) - band.top * band.width;
+        let finite = band.rgb.iter().skip(first).step_by(every).filter(|rgb| rgb.iter().all(|v| v.is_finite()));
+        colours.extend(finite.map(|rgb| {
             let rgb = rgb.map(f64::from);
             to_input.map_or(rgb, |matrix| (matrix * Vector3::from(rgb)).data.0[0])
-        })
-        .collect())
+        }));
+    }
 }

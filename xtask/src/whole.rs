@@ -1,10 +1,15 @@
 //! Whole files or none: what a run writes is complete under its name, or is not there.
 
 use std::{
+    collections::BTreeSet,
+    fmt,
     fs::{self, File, OpenOptions},
     io::{self, BufWriter},
     path::{Path, PathBuf},
-    sync::atomic::{AtomicU32, Ordering},
+    sync::{
+        Mutex, MutexGuard, Once, PoisonError,
+        atomic::{AtomicU32, Ordering},
+    },
 };
 
 use anyhow::{Result, anyhow, bail};
@@ -20,10 +25,26 @@ const NAMES_TRIED: u32 = 64;
 ///
 /// # Errors
 /// One sentence that starts with `path`: the folder does not exist, the name is a folder or a device, the file is
-/// write-protected, the disk is full, or what `write` says. Nothing half-written is left.
+/// write-protected, the disk is full, or what `write` says; a [`NotOfThisFile`] of `write` as it is. Nothing
+/// half-written is left, also not where the run is interrupted (Ctrl-C).
 pub(crate) fn write_whole<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<T>) -> Result<T> {
-    replace(path, write).map_err(|error| anyhow!("{}: {error:#}", path.display()))
+    replace(path, write).map_err(|error| match error.downcast() {
+        Ok(NotOfThisFile(error)) => error,
+        Err(error) => anyhow!("{}: {error:#}", path.display()),
+    })
 }
+
+/// An error that is not about the file being written, and keeps its own words.
+#[derive(Debug)]
+pub(crate) struct NotOfThisFile(pub(crate) anyhow::Error);
+
+impl fmt::Display for NotOfThisFile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:#}", self.0)
+    }
+}
+
+impl std::error::Error for NotOfThisFile {}
 
 /// Files that belong together: all are complete on disk before the first takes its name.
 pub(crate) struct WholeSet {
@@ -140,6 +161,31 @@ impl Target {
     }
 }
 
+/// The temporary files that exist, to be removed where the run is interrupted.
+static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// What a shell reports for a program that Ctrl-C ended.
+const INTERRUPTED: i32 = 130;
+
+/// Makes an interruption remove what is unfinished. Without it, files stay: nothing else is lost.
+fn remove_when_interrupted() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        let _ = ctrlc::set_handler(|| {
+            // Kept locked, so that no file is made or named any more.
+            let paths = unfinished();
+            for path in paths.iter() {
+                let _ = fs::remove_file(path);
+            }
+            std::process::exit(INTERRUPTED);
+        });
+    });
+}
+
 /// The name of a file that is removed unless it is renamed.
 struct Temporary {
     path: Option<PathBuf>,
@@ -148,12 +194,17 @@ struct Temporary {
 impl Temporary {
     fn create(folder: &Path) -> Result<(Self, File)> {
         static NUMBER: AtomicU32 = AtomicU32::new(0);
+        remove_when_interrupted();
+        let mut unfinished = unfinished();
         for _ in 0..NAMES_TRIED {
             let number = NUMBER.fetch_add(1, Ordering::Relaxed);
             let path = folder.join(format!(".onelight-{}-{number}.part", std::process::id()));
             // `read`, because some writers seek back and read what they wrote.
             match OpenOptions::new().read(true).write(true).create_new(true).open(&path) {
-                Ok(file) => return Ok((Self { path: Some(path) }, file)),
+                Ok(file) => {
+                    unfinished.insert(path.clone());
+                    return Ok((Self { path: Some(path) }, file));
+                }
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(error) => {
                     bail!("cannot be written, as no file can be made in the folder {}: {error}", folder.display())
@@ -165,7 +216,9 @@ impl Temporary {
 
     fn rename(mut self, target: &Path) -> Result<()> {
         if let Some(path) = &self.path {
+            let mut unfinished = unfinished();
             fs::rename(path, target).map_err(|error| cannot_write(&error))?;
+            unfinished.remove(path);
         }
         self.path = None;
         Ok(())
@@ -175,6 +228,8 @@ impl Temporary {
 impl Drop for Temporary {
     fn drop(&mut self) {
         if let Some(path) = &self.path {
+            let mut unfinished = unfinished();
+            unfinished.remove(path);
             // Nothing more can be done: the error that led here is the one to report.
             let _ = fs::remove_file(path);
         }

@@ -1,10 +1,8 @@
 //! Premultiplied and straight colour.
 
-use rayon::prelude::*;
-
 /// Divides each colour by its coverage.
 pub(super) fn straighten(rgb: &mut [[f32; 3]], alpha: &[f32]) {
-    rgb.par_iter_mut().zip(alpha).with_min_len(1 << 14).for_each(|(colour, &alpha)| {
+    rgb.iter_mut().zip(alpha).for_each(|(colour, &alpha)| {
         if covers(alpha) {
             *colour = colour.map(|value| value / alpha);
         }

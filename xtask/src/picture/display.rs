@@ -1,60 +1,43 @@
 //! What a viewer shows: the display window.
 
-use anyhow::Result;
+use std::ops::Range;
 
-use super::{Picture, Windows, limits::allocate};
+use super::{BandView, Description};
 
-/// A display-coded picture: 0 is black, 1 the display's white.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct DisplayPicture {
-    /// Width in pixels.
-    pub(crate) width: usize,
-    /// Height in pixels.
-    pub(crate) height: usize,
-    /// `width * height` straight colours, top row first.
-    pub(crate) rgb: Vec<[f32; 3]>,
-    /// Coverage, as many as there are colours.
-    pub(crate) alpha: Option<Vec<f32>>,
+/// The display window of a picture: what lies outside of it is cut off, what the data window does not have is left
+/// empty.
+#[derive(Debug, Clone)]
+pub(super) struct Shown {
+    columns: Overlap,
+    rows: Overlap,
 }
 
-impl Picture {
-    /// The display window of a picture whose colours are display-coded already: what lies outside is cut off, and what
-    /// is missing is black, transparent where there is alpha.
-    ///
-    /// # Errors
-    /// If there is no memory for it.
-    pub(crate) fn into_display(self) -> Result<DisplayPicture> {
-        let Self { width, height, rgb, alpha, windows, .. } = self;
-        let [shown_width, shown_height] = windows.display_size;
-        if windows.data_origin == windows.display_origin && [width, height] == windows.display_size {
-            return Ok(DisplayPicture { width, height, rgb, alpha });
-        }
-        Ok(DisplayPicture {
-            width: shown_width,
-            height: shown_height,
-            rgb: shown(&rgb, [width, height], &windows)?,
-            alpha: alpha.map(|alpha| shown(&alpha, [width, height], &windows)).transpose()?,
-        })
+impl Shown {
+    pub(super) fn new(picture: &Description) -> Self {
+        Self { columns: Overlap::new(picture, 0, picture.width), rows: Overlap::new(picture, 1, picture.height) }
+    }
+
+    /// The rows of the display window that a band has pixels for.
+    pub(super) fn rows_of(&self, band: BandView<'_>) -> Range<usize> {
+        let height = band.rgb.len().checked_div(band.width).unwrap_or(0);
+        let Overlap { from, to, count } = self.rows;
+        // A display row is a data row less `from` and more `to`.
+        let shown = |row: usize| row.clamp(from, from + count) - from + to;
+        shown(band.top)..shown(band.top.saturating_add(height))
+    }
+
+    /// Where in the picture's pixels a row of the display window begins: columns of the display window, and the colours and
+    /// coverage for them.
+    pub(super) fn row<'a>(&self, row: usize, band: BandView<'a>) -> (Range<usize>, &'a [[f32; 3]], Option<&'a [f32]>) {
+        let Overlap { from, to, count } = self.columns;
+        let start = (row - self.rows.to + self.rows.from - band.top) * band.width + from;
+        (to..to + count, &band.rgb[start..start + count], band.alpha.map(|alpha| &alpha[start..start + count]))
     }
 }
 
-/// The values in the display window, those outside the data window being the default.
-fn shown<T: Copy + Default>(values: &[T], size: [usize; 2], windows: &Windows) -> Result<Vec<T>> {
-    let [width, height] = windows.display_size;
-    let columns = Overlap::new(windows, size, 0);
-    let rows = Overlap::new(windows, size, 1);
-    let mut out = allocate(width * height, T::default())?;
-    if columns.count > 0 {
-        for row in 0..rows.count {
-            let to = (rows.to + row) * width + columns.to;
-            let from = (rows.from + row) * size[0] + columns.from;
-            out[to..to + columns.count].copy_from_slice(&values[from..from + columns.count]);
-        }
-    }
-    Ok(out)
-}
-
-/// Where the windows overlap along one axis: `count` pixels `from` the data window `to` the display window.
+/// Where the windows overlap along one axis: `count` pixels `from` the data window `to` the display window; all 0
+/// where they do not.
+#[derive(Debug, Clone, Copy)]
 struct Overlap {
     from: usize,
     to: usize,
@@ -62,11 +45,15 @@ struct Overlap {
 }
 
 impl Overlap {
-    fn new(windows: &Windows, size: [usize; 2], axis: usize) -> Self {
+    fn new(picture: &Description, axis: usize, size: usize) -> Self {
+        let windows = &picture.windows;
         let data = i64::from(windows.data_origin[axis]);
         let display = i64::from(windows.display_origin[axis]);
         let start = data.max(display);
-        let end = (data + size[axis] as i64).min(display + windows.display_size[axis] as i64);
-        Self { from: (start - data) as usize, to: (start - display) as usize, count: (end - start).max(0) as usize }
+        let end = (data + size as i64).min(display + windows.display_size[axis] as i64);
+        if end <= start {
+            return Self { from: 0, to: 0, count: 0 };
+        }
+        Self { from: (start - data) as usize, to: (start - display) as usize, count: (end - start) as usize }
     }
 }

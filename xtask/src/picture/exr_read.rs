@@ -1,4 +1,4 @@
-//! Reading OpenEXR: the header and its checks; the pixels are read by [`exr_blocks`].
+//! Reading OpenEXR: the header and its checks; the pixels are read by [`exr_bands`](super::exr_bands).
 //!
 //! The `exr` crate parses the header and unpacks blocks. The table of offsets and the blocks' own headers are read
 //! here, so that each block is known to be the one asked for: a damaged table then gives an error and not a picture
@@ -13,7 +13,10 @@ use exr::{
 };
 
 use super::{
-    Chromaticities, Limits, Picture, Source, Windows, alpha, exr_blocks, exr_boxes, exr_layout,
+    Bands, Channels, Chromaticities, Description, Limits, Source, Windows,
+    exr_bands::ExrBands,
+    exr_blocks::Blocks,
+    exr_boxes, exr_layout,
     guard::guarded,
     limits::{check_claim, check_shown},
 };
@@ -21,8 +24,12 @@ use super::{
 /// The compressions that are read, for messages.
 const COMPRESSIONS: &str = "none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA or DWAB";
 
-/// Reads a picture from an OpenEXR file of `length` bytes.
-pub(super) fn read<R: BufRead + Seek>(mut reader: R, length: u64, limits: &Limits) -> Result<Picture> {
+/// Opens a picture in an OpenEXR file of `length` bytes.
+pub(super) fn open<'a, R: BufRead + Seek + Send + 'a>(
+    mut reader: R,
+    length: u64,
+    limits: &Limits,
+) -> Result<(Description, Box<dyn Bands + 'a>)> {
     exr_boxes::check(&mut reader)?;
     reader.seek(SeekFrom::Start(0)).map_err(|error| super::cannot_read(&error))?;
     let meta = guarded(|| MetaData::read_from_buffered(&mut reader, false))?
@@ -35,19 +42,14 @@ pub(super) fn read<R: BufRead + Seek>(mut reader: R, length: u64, limits: &Limit
     guarded(|| MetaData::validate(std::slice::from_ref(header), false))?
         .map_err(|error| anyhow!("the OpenEXR header is wrong: {}", message(&error)))?;
 
-    let (mut rgb, alpha) = exr_blocks::read(reader, length, tables_at, &meta, &layout)?;
-    if let Some(alpha) = &alpha {
-        alpha::straighten(&mut rgb, alpha);
-    }
-    let (windows, mut notes) = (windows(header), layout.notes);
+    let (windows, mut notes) = (windows(header), layout.notes.clone());
     if windows.pixel_aspect != header.shared_attributes.pixel_aspect {
         notes.push("took the pixels for square, as the file's pixel aspect ratio cannot be".to_owned());
     }
-    Ok(Picture {
+    let description = Description {
         width: header.layer_size.0,
         height: header.layer_size.1,
-        rgb,
-        alpha,
+        channels: if layout.alpha.is_some() { Channels::Rgba } else { Channels::Rgb },
         windows,
         primaries: header.shared_attributes.chromaticities.map(|xy| Chromaticities {
             red: [xy.red.0, xy.red.1],
@@ -57,7 +59,9 @@ pub(super) fn read<R: BufRead + Seek>(mut reader: R, length: u64, limits: &Limit
         }),
         source: Source::Exr,
         notes,
-    })
+    };
+    let blocks = Blocks::open(reader, length, tables_at, &meta, layout.part)?;
+    Ok((description, Box::new(ExrBands::new(blocks, meta, layout))))
 }
 
 /// The crate's message made part of a sentence.

@@ -12,7 +12,8 @@ pub(crate) struct Limits {
 }
 
 impl Default for Limits {
-    /// 268 million pixels (16384 x 16384), which take 4 GiB as `f32` RGBA, and sides up to 65535.
+    /// 268 million pixels (16384 x 16384) and sides up to 65535. Bands take little of that, but one tile or strip may be
+    /// the whole picture: 4 GiB as `f32` RGBA.
     fn default() -> Self {
         Self { max_pixels: 1 << 28, max_side: 65_535 }
     }
@@ -34,7 +35,7 @@ impl Limits {
     }
 }
 
-/// A display window may have this many pixels whatever the data window has (192 MiB of `f32` RGB), ...
+/// A display window may have this many pixels whatever the data window has (a PNG of some 100 KB), ...
 const SHOWN_FREELY: u64 = 1 << 24;
 /// ... and beyond that this many times as many as the data window.
 const SHOWN_PER_PIXEL: u64 = 64;
@@ -70,9 +71,15 @@ pub(super) fn check_claim(width: u64, height: u64, claimed: u64, length: u64, ex
 /// `count` values, or a sentence where the memory is not there.
 pub(super) fn allocate<T: Clone>(count: usize, value: T) -> Result<Vec<T>> {
     let mut values = Vec::new();
+    grow(&mut values, count, value)?;
+    Ok(values)
+}
+
+/// Makes `values` as many as `count`, new ones being `value`, or says that the memory is not there.
+pub(super) fn grow<T: Clone>(values: &mut Vec<T>, count: usize, value: T) -> Result<()> {
     values
-        .try_reserve_exact(count)
+        .try_reserve_exact(count.saturating_sub(values.len()))
         .map_err(|_| anyhow!("there is no memory for {} MiB of pixels", (count * size_of::<T>()) >> 20))?;
     values.resize(count, value);
-    Ok(values)
+    Ok(())
 }

@@ -1,6 +1,10 @@
 //! Pictures in and out of the runner: OpenEXR, PNG and TIFF to straight `f32` RGB, and back to PNG and OpenEXR.
 //!
-//! [`read`] tells the format by the file's first bytes. Values are those of the file: linear for OpenEXR and float
+//! Pictures go through in bands of rows: [`open`] gives a [`PictureReader`], [`write_png_bands`] and [`write_exr_bands`] take what was
+//! made of its bands. What a file keeps in one piece (a strip of TIFF, a row of tiles, an interlaced PNG) is held in
+//! one piece.
+//!
+//! [`open`] tells the format by the file's first bytes. Values are those of the file: linear for OpenEXR and float
 //! TIFF, coded 0..1 for integers, whose transfer curve the caller undoes. Premultiplied colour is divided by alpha on
 //! the way in and multiplied on the way out, so that a look sees the colour of things and not of their coverage.
 //!
@@ -10,8 +14,10 @@
 //! Out of scope: deep data, subsampled channels, palette, CMYK and JPEG-compressed TIFF, ICC profiles, animation.
 
 mod alpha;
+mod band;
 mod display;
 mod dwa;
+mod exr_bands;
 mod exr_blocks;
 mod exr_boxes;
 mod exr_layout;
@@ -28,20 +34,48 @@ mod tiff_read;
 use std::{
     fs::{self, File},
     io::{BufRead, BufReader, ErrorKind, Read, Seek, SeekFrom},
-    path::Path,
+    path::{Path, PathBuf},
 };
 
 use anyhow::{Result, anyhow, bail};
 
+use self::band::Bands;
 pub(crate) use self::{
-    display::DisplayPicture,
-    exr_write::write_exr,
+    band::{Band, BandSink, BandView, Channels, RowMut},
+    exr_write::{write_exr, write_exr_bands},
     limits::Limits,
-    png_write::{Bits, Coding, ColourTag, write_png},
+    png_write::{Bits, Coding, ColourTag, write_png_bands},
 };
 
 /// What the formats are called in messages.
 const READABLE: &str = "an OpenEXR, PNG or TIFF picture";
+
+/// What a file says of its picture before the pixels.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Description {
+    /// Width of the data window, in pixels.
+    pub(crate) width: usize,
+    /// Height of the data window, in pixels.
+    pub(crate) height: usize,
+    /// What a pixel holds.
+    pub(crate) channels: Channels,
+    /// Where the pixels lie and what part of the plane is shown.
+    pub(crate) windows: Windows,
+    /// The colour space where the file names it.
+    pub(crate) primaries: Option<Chromaticities>,
+    /// What kind of file it is.
+    pub(crate) source: Source,
+    /// What the reader chose among several layers or leaves out, a sentence each, for the user.
+    pub(crate) notes: Vec<String>,
+}
+
+impl Description {
+    /// A picture of one window at the origin, of no named primaries.
+    fn plain(width: usize, height: usize, channels: Channels, source: Source) -> Self {
+        let windows = Windows::of_size(width, height);
+        Self { width, height, channels, windows, primaries: None, source, notes: Vec::new() }
+    }
+}
 
 /// A picture as a file holds it, in memory.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,6 +99,21 @@ pub(crate) struct Picture {
 }
 
 impl Picture {
+    /// All but the pixels.
+    fn description(&self) -> Description {
+        let channels = if self.alpha.is_some() { Channels::Rgba } else { Channels::Rgb };
+        Description {
+            windows: self.windows,
+            primaries: self.primaries,
+            ..Description::plain(self.width, self.height, channels, self.source)
+        }
+    }
+
+    /// All of it as one band.
+    fn view(&self) -> BandView<'_> {
+        BandView { top: 0, width: self.width, rgb: &self.rgb, alpha: self.alpha.as_deref() }
+    }
+
     /// Opaque colours of one window at the origin, of no named primaries.
     pub(crate) fn opaque(width: usize, height: usize, rgb: Vec<[f32; 3]>, source: Source) -> Self {
         let windows = Windows::of_size(width, height);
@@ -133,37 +182,72 @@ pub(crate) enum Samples {
     Float,
 }
 
-/// Colours, and coverage where there is any.
-type Pixels = (Vec<[f32; 3]>, Option<Vec<f32>>);
+/// An open picture: what it is, and its rows from top to bottom.
+pub(crate) struct PictureReader<'a> {
+    description: Description,
+    bands: Box<dyn Bands + 'a>,
+    path: PathBuf,
+}
 
-/// Reads the picture in the file `path`.
+/// Opens the picture in the file `path`; its pixels are values of the file, colours straight (not premultiplied), NaN,
+/// infinities and negatives kept.
 ///
 /// # Errors
 /// One sentence that starts with `path`: no such file, a folder, another format, a picture over `limits` or one that
 /// the file is too short to hold, damaged or truncated data, or a feature that is not read.
-pub(crate) fn read(path: &Path, limits: &Limits) -> Result<Picture> {
-    open(path)
-        .and_then(|(file, length)| read_from(BufReader::new(file), length, limits))
-        .map_err(|error| anyhow!("{}: {error:#}", path.display()))
+pub(crate) fn open(path: &Path, limits: &Limits) -> Result<PictureReader<'static>> {
+    let opened = open_file(path).and_then(|(file, length)| open_from(BufReader::new(file), length, limits));
+    let (description, bands) = opened.map_err(|error| at(path, &error))?;
+    Ok(PictureReader { description, bands, path: path.to_owned() })
 }
 
-/// Reads a picture of `length` bytes from `reader`, which is at its start.
-fn read_from<R: BufRead + Seek>(mut reader: R, length: u64, limits: &Limits) -> Result<Picture> {
+impl PictureReader<'_> {
+    /// What the file says of the picture.
+    pub(crate) fn description(&self) -> &Description {
+        &self.description
+    }
+
+    /// Fills `band` with the next rows, top to bottom; without rows after the last.
+    ///
+    /// # Errors
+    /// One sentence that starts with the path: damaged or truncated data, or no memory.
+    pub(crate) fn next_into(&mut self, band: &mut Band) -> Result<()> {
+        self.bands.next_into(band).map_err(|error| at(&self.path, &error))
+    }
+}
+
+/// Reads the whole picture in the file `path`.
+#[cfg(test)]
+pub(crate) fn read(path: &Path, limits: &Limits) -> Result<Picture> {
+    let (file, length) = open_file(path).map_err(|error| at(path, &error))?;
+    tests::read_from(BufReader::new(file), length, limits).map_err(|error| at(path, &error))
+}
+
+/// Opens a picture of `length` bytes from `reader`, which is at its start.
+fn open_from<'a, R: BufRead + Seek + Send + 'a>(
+    mut reader: R,
+    length: u64,
+    limits: &Limits,
+) -> Result<(Description, Box<dyn Bands + 'a>)> {
     let mut start = Vec::new();
     reader.by_ref().take(16).read_to_end(&mut start).map_err(|error| cannot_read(&error))?;
     reader.seek(SeekFrom::Start(0)).map_err(|error| cannot_read(&error))?;
     match &start[..] {
         [] => bail!("the file is empty, expected {READABLE}"),
-        [0x76, 0x2f, 0x31, 0x01, ..] => exr_read::read(reader, length, limits),
-        [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1a, b'\n', ..] => png_read::read(reader, length, limits),
-        [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..] => tiff_read::read(reader, length, limits),
+        [0x76, 0x2f, 0x31, 0x01, ..] => exr_read::open(reader, length, limits),
+        [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1a, b'\n', ..] => png_read::open(reader, length, limits),
+        [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..] => tiff_read::open(reader, length, limits),
         other => {
             bail!("found {} by its first bytes, expected {READABLE}", kind_of_file(other))
         }
     }
 }
 
-fn open(path: &Path) -> Result<(File, u64)> {
+fn at(path: &Path, error: &anyhow::Error) -> anyhow::Error {
+    anyhow!("{}: {error:#}", path.display())
+}
+
+fn open_file(path: &Path) -> Result<(File, u64)> {
     let found = fs::metadata(path).map_err(|error| cannot_read(&error))?;
     if found.is_dir() {
         bail!("is a folder, expected {READABLE}");

@@ -3,10 +3,12 @@
 use std::io::{BufRead, Seek};
 
 use anyhow::{Result, anyhow, bail};
-use png::{BitDepth, ColorType, Decoder, DecodingError, Transformations};
+use png::{BitDepth, ColorType, Decoder, DecodingError, Reader, Transformations};
+use rayon::prelude::*;
 
 use super::{
-    Limits, Picture, Pixels, Source,
+    Band, Bands, Channels, Description, Limits, RowMut, Source,
+    band::blocks_in_band,
     guard::guarded,
     limits::{allocate, check_claim},
 };
@@ -17,12 +19,20 @@ const WORKING_BYTES: usize = 1 << 26;
 /// More than Deflate can give for one byte.
 const EXPANSION: u64 = 1100;
 
-/// Reads a picture from a PNG file of `length` bytes.
-pub(super) fn read<R: BufRead + Seek>(reader: R, length: u64, limits: &Limits) -> Result<Picture> {
-    guarded(|| decode(reader, length, limits))?
+/// Opens a picture in a PNG file of `length` bytes.
+pub(super) fn open<'a, R: BufRead + Seek + Send + 'a>(
+    reader: R,
+    length: u64,
+    limits: &Limits,
+) -> Result<(Description, Box<dyn Bands + 'a>)> {
+    guarded(|| start(reader, length, limits))?
 }
 
-fn decode<R: BufRead + Seek>(reader: R, length: u64, limits: &Limits) -> Result<Picture> {
+fn start<'a, R: BufRead + Seek + Send + 'a>(
+    reader: R,
+    length: u64,
+    limits: &Limits,
+) -> Result<(Description, Box<dyn Bands + 'a>)> {
     let mut decoder = Decoder::new_with_limits(reader, png::Limits { bytes: WORKING_BYTES });
     decoder.set_transformations(Transformations::EXPAND);
     decoder.set_ignore_text_chunk(true);
@@ -33,37 +43,98 @@ fn decode<R: BufRead + Seek>(reader: R, length: u64, limits: &Limits) -> Result<
     let bits = info.bits_per_pixel() as u64;
     check_claim(width, height, (width * bits).div_ceil(8) * height, length, EXPANSION)?;
 
-    let mut reader = decoder.read_info().map_err(|error| sentence(&error))?;
+    let reader = decoder.read_info().map_err(|error| sentence(&error))?;
     let (colour, depth) = reader.output_color_type();
-    let size = reader.output_buffer_size().ok_or_else(|| anyhow!("the PNG is too large"))?;
-    let mut bytes = allocate(size, 0)?;
-    reader.next_frame(&mut bytes).map_err(|error| sentence(&error))?;
-
-    let (width, height) = (width as usize, height as usize);
-    let bits = if depth == BitDepth::Sixteen { 16 } else { 8 };
-    let (rgb, alpha) = match bits {
-        8 => pixels(&bytes, colour, |[byte]: [u8; 1]| f32::from(byte) / 255.0)?,
-        _ => pixels(&bytes, colour, |word| f32::from(u16::from_be_bytes(word)) / 65_535.0)?,
-    };
-    Ok(Picture { alpha, ..Picture::opaque(width, height, rgb, Source::Png { bits }) })
-}
-
-/// Colours and coverage from samples of `N` bytes.
-fn pixels<const N: usize>(bytes: &[u8], colour: ColorType, value: impl Fn([u8; N]) -> f32) -> Result<Pixels> {
-    let (samples, _) = bytes.as_chunks::<N>();
-    let value = |sample: &[u8; N]| value(*sample);
-    let (step, alpha_at) = match colour {
-        ColorType::Grayscale => (1, None),
-        ColorType::GrayscaleAlpha => (2, Some(1)),
-        ColorType::Rgb => (3, None),
-        ColorType::Rgba => (4, Some(3)),
+    let (samples, channels) = match colour {
+        ColorType::Grayscale => (1, Channels::Rgb),
+        ColorType::GrayscaleAlpha => (2, Channels::Rgba),
+        ColorType::Rgb => (3, Channels::Rgb),
+        ColorType::Rgba => (4, Channels::Rgba),
         ColorType::Indexed => bail!("the PNG's palette is missing"),
     };
+    let bits = if depth == BitDepth::Sixteen { 16 } else { 8 };
+    let row_bytes = reader.output_line_size(reader.info().width).ok_or_else(|| anyhow!("the PNG is too large"))?;
+    let interlaced = reader.info().interlaced;
+    let description = Description::plain(width as usize, height as usize, channels, Source::Png { bits });
+    let (width, height) = (width as usize, height as usize);
+    let rows =
+        PngBands { reader, width, height, channels, samples, bits, row_bytes, interlaced, bytes: Vec::new(), next: 0 };
+    Ok((description, Box::new(rows)))
+}
+
+/// The rows of a PNG. An interlaced one has no row before it has them all, so its samples are held whole.
+struct PngBands<R: BufRead + Seek> {
+    reader: Reader<R>,
+    width: usize,
+    height: usize,
+    channels: Channels,
+    /// Samples of a pixel.
+    samples: usize,
+    bits: u8,
+    row_bytes: usize,
+    interlaced: bool,
+    /// Samples of the band, or of the picture where it is interlaced.
+    bytes: Vec<u8>,
+    next: usize,
+}
+
+impl<R: BufRead + Seek + Send> Bands for PngBands<R> {
+    fn next_into(&mut self, band: &mut Band) -> Result<()> {
+        let rows = blocks_in_band(self.width, 1).min(self.height - self.next);
+        band.become_rows(self.next, rows, self.width, self.channels)?;
+        if rows > 0 {
+            guarded(|| self.read(rows))??;
+            let first = if self.interlaced { self.next * self.row_bytes } else { 0 };
+            let bytes = &self.bytes[first..first + rows * self.row_bytes];
+            let (samples, bits) = (self.samples, self.bits);
+            band.rows_mut().zip(bytes.par_chunks_exact(self.row_bytes)).for_each(|(mut row, bytes)| match bits {
+                8 => fill(&mut row, bytes, samples, |[byte]: [u8; 1]| f32::from(byte) / 255.0),
+                _ => fill(&mut row, bytes, samples, |word| f32::from(u16::from_be_bytes(word)) / 65_535.0),
+            });
+        }
+        self.next += rows;
+        Ok(())
+    }
+}
+
+impl<R: BufRead + Seek> PngBands<R> {
+    /// Makes the samples of the next rows lie in `bytes`.
+    fn read(&mut self, rows: usize) -> Result<()> {
+        if self.interlaced {
+            if self.next == 0 {
+                let size = self.reader.output_buffer_size().ok_or_else(|| anyhow!("the PNG is too large"))?;
+                self.bytes = allocate(size, 0)?;
+                self.reader.next_frame(&mut self.bytes).map_err(|error| sentence(&error))?;
+            }
+            return Ok(());
+        }
+        if self.bytes.is_empty() {
+            self.bytes = allocate(rows * self.row_bytes, 0)?;
+        }
+        for row in self.bytes.chunks_exact_mut(self.row_bytes).take(rows) {
+            if self.reader.read_row(row).map_err(|error| sentence(&error))?.is_none() {
+                bail!("the PNG has fewer rows than its header says");
+            }
+        }
+        if self.next + rows == self.height {
+            // Goes past the last row, where damage may still show.
+            self.reader.read_row(&mut []).map_err(|error| sentence(&error))?;
+        }
+        Ok(())
+    }
+}
+
+/// Colours and coverage of a row from samples of `N` bytes.
+fn fill<const N: usize>(row: &mut RowMut<'_>, bytes: &[u8], step: usize, value: impl Fn([u8; N]) -> f32) {
+    let (samples, _) = bytes.as_chunks::<N>();
     let [green, blue] = if step < 3 { [0, 0] } else { [1, 2] };
-    let rgb =
-        samples.chunks_exact(step).map(|pixel| [value(&pixel[0]), value(&pixel[green]), value(&pixel[blue])]).collect();
-    let alpha = alpha_at.map(|at| samples.chunks_exact(step).map(|pixel: &[[u8; N]]| value(&pixel[at])).collect());
-    Ok((rgb, alpha))
+    let pixels = || samples.chunks_exact(step);
+    for (colour, pixel) in row.rgb.iter_mut().zip(pixels()) {
+        *colour = [value(pixel[0]), value(pixel[green]), value(pixel[blue])];
+    }
+    if let Some(alpha) = &mut row.alpha {
+        alpha.iter_mut().zip(pixels()).for_each(|(alpha, pixel)| *alpha = value(pixel[step - 1]));
+    }
 }
 
 fn sentence(error: &DecodingError) -> anyhow::Error {

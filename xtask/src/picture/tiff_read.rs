@@ -3,34 +3,45 @@
 use std::io::{ErrorKind, Read, Seek};
 
 use anyhow::{Result, anyhow, bail};
+use rayon::prelude::*;
 use tiff::{
     ColorType, TiffError,
     decoder::{ChunkType, Decoder, DecodingResult},
-    tags::Tag,
+    tags::{SampleFormat, Tag},
 };
 
 use super::{
-    Limits, Picture, Pixels, Samples, Source, alpha,
-    guard::guarded,
-    limits::{allocate, check_claim},
+    Band, Bands, Channels, Description, Limits, RowMut, Samples, Source, alpha, band::blocks_in_band, guard::guarded,
+    limits::check_claim,
 };
 
 /// More than Deflate, LZW or PackBits can give for one byte.
 const EXPANSION: u64 = 2048;
 
-/// Reads a picture from a TIFF file of `length` bytes: the first one in it.
-pub(super) fn read<R: Read + Seek>(reader: R, length: u64, limits: &Limits) -> Result<Picture> {
-    guarded(|| decode(reader, length, limits))?
+/// Fewer samples than these are not worth a thread.
+const SAMPLES_TOGETHER: usize = 1 << 14;
+
+/// Opens the first picture in a TIFF file of `length` bytes.
+pub(super) fn open<'a, R: Read + Seek + Send + 'a>(
+    reader: R,
+    length: u64,
+    limits: &Limits,
+) -> Result<(Description, Box<dyn Bands + 'a>)> {
+    guarded(|| start(reader, length, limits))?
 }
 
-fn decode<R: Read + Seek>(reader: R, length: u64, limits: &Limits) -> Result<Picture> {
+fn start<'a, R: Read + Seek + Send + 'a>(
+    reader: R,
+    length: u64,
+    limits: &Limits,
+) -> Result<(Description, Box<dyn Bands + 'a>)> {
     let mut decoder = Decoder::new(reader).map_err(sentence)?;
     let (width, height) = decoder.dimensions().map_err(sentence)?;
     let (width, height) = (u64::from(width), u64::from(height));
     limits.check_size("the picture", width, height)?;
 
     let colour = decoder.colortype().map_err(sentence)?;
-    let channels = match colour {
+    let samples = match colour {
         ColorType::Gray(_) => 1,
         ColorType::GrayA(_) | ColorType::Multiband { num_samples: 2, .. } => 2,
         ColorType::RGB(_) => 3,
@@ -41,89 +52,202 @@ fn decode<R: Read + Seek>(reader: R, length: u64, limits: &Limits) -> Result<Pic
     if !matches!(bits, 8 | 16 | 32 | 64) {
         bail!("the TIFF has {bits} bits a sample, expected 8, 16 or 32, or floating point");
     }
-    let planes = decoder.image_buffer_layout().map_err(sentence)?.planes;
-    if planes > 1 && decoder.get_chunk_type() == ChunkType::Tile {
+    let layout = decoder.image_buffer_layout().map_err(sentence)?;
+    let kind = match (layout.sample_format, bits) {
+        (SampleFormat::Uint, 8 | 16 | 32) => Samples::Integer,
+        (SampleFormat::IEEEFP, 16 | 32 | 64) => Samples::Float,
+        _ => bail!("the TIFF's samples are signed or 64-bit integers, expected unsigned or floating point"),
+    };
+    if layout.planes > 1 && decoder.get_chunk_type() == ChunkType::Tile {
         bail!("the TIFF keeps its channels apart and in tiles, expected tiles of whole pixels, or strips");
     }
-    let claimed = width * height * channels as u64 * u64::from(bits / 8);
+    if layout.planes != 1 && layout.planes != samples {
+        bail!("the TIFF gives its samples in {} planes, expected {samples} channels", layout.planes);
+    }
+    let claimed = width * height * samples as u64 * u64::from(bits / 8);
     let expansion = match decoder.find_tag_unsigned::<u16>(Tag::Compression).map_err(sentence)? {
         None | Some(1) => 1, // uncompressed
         Some(_) => EXPANSION,
     };
     check_claim(width, height, claimed, length, expansion)?;
 
+    let channels = if samples % 2 == 0 { Channels::Rgba } else { Channels::Rgb };
+    let source = Source::Tiff { bits, samples: kind };
+    let (width, height) = (width as usize, height as usize);
+    let mut description = Description::plain(width, height, channels, source);
+    let mut coverage = Coverage::Straight;
+    if channels == Channels::Rgba {
+        let extra = decoder.find_tag_unsigned_vec::<u16>(Tag::ExtraSamples).map_err(sentence)?;
+        // 1: associated (premultiplied), 2: unassociated, 0: not said.
+        match extra.as_deref().and_then(<[u16]>::first) {
+            Some(1) => coverage = Coverage::Premultiplied,
+            Some(2) => {}
+            _ => description
+                .notes
+                .push("took the TIFF's extra channel, of which it says nothing, for straight alpha".to_owned()),
+        }
+    }
+    if decoder.find_tag_unsigned::<u16>(Tag::Orientation).map_err(sentence)?.is_some_and(|way| way > 1) {
+        description.notes.push("left the TIFF's orientation as stored".to_owned());
+    }
+
     // Tiles and strips may reach over the border.
     let most = usize::try_from(claimed)?.saturating_mul(2).saturating_add(1 << 24);
     let mut allowed = tiff::decoder::Limits::default();
     allowed.decoding_buffer_size = most;
     allowed.intermediate_buffer_size = most;
-    let mut decoder = decoder.with_limits(allowed);
-    let mut samples = DecodingResult::U8(Vec::new());
-    decoder.read_image_to_buffer(&mut samples).map_err(sentence)?;
+    let decoder = decoder.with_limits(allowed);
+    let (chunk_width, chunk_height) = decoder.chunk_dimensions();
+    let chunk = [chunk_width as usize, (chunk_height as usize).min(height)];
+    if chunk.contains(&0) {
+        bail!("the TIFF's strips or tiles are {chunk_width} x {chunk_height} pixels, expected at least 1 x 1");
+    }
+    let bands = TiffBands {
+        decoder,
+        size: [width, height],
+        chunk,
+        samples,
+        channels,
+        planes: layout.planes,
+        coverage,
+        next: 0,
+    };
+    Ok((description, Box::new(bands)))
+}
 
-    let (width, height) = (width as usize, height as usize);
-    let shape = Shape { count: width * height, channels, planes };
-    let (kind, (mut rgb, alpha)) = shape.pixels(&samples)?;
-    drop(samples);
+/// What an alpha channel has done to the colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Coverage {
+    Straight,
+    Premultiplied,
+}
 
-    let mut notes = Vec::new();
-    if let Some(alpha) = &alpha {
-        let extra = decoder.find_tag_unsigned_vec::<u16>(Tag::ExtraSamples).map_err(sentence)?;
-        // 1: associated (premultiplied), 2: unassociated, 0: not said.
-        match extra.as_deref().and_then(<[u16]>::first) {
-            Some(1) => alpha::straighten(&mut rgb, alpha),
-            Some(2) => {}
-            _ => notes.push("took the TIFF's extra channel, of which it says nothing, for straight alpha".to_owned()),
+/// The strips of a TIFF, or its rows of tiles.
+struct TiffBands<R: Read + Seek> {
+    decoder: Decoder<R>,
+    size: [usize; 2],
+    /// Width and height of a strip or tile.
+    chunk: [usize; 2],
+    /// Samples of a pixel.
+    samples: usize,
+    channels: Channels,
+    /// 1 where a pixel's samples lie side by side, else one plane a sample.
+    planes: usize,
+    coverage: Coverage,
+    /// The next row of strips or tiles.
+    next: usize,
+}
+
+impl<R: Read + Seek + Send> Bands for TiffBands<R> {
+    fn next_into(&mut self, band: &mut Band) -> Result<()> {
+        let [width, height] = self.size;
+        let down = height.div_ceil(self.chunk[1]);
+        let rows = self.next..(self.next + blocks_in_band(width, self.chunk[1])).min(down);
+        let top = (rows.start * self.chunk[1]).min(height);
+        let end = (rows.end * self.chunk[1]).min(height);
+        band.become_rows(top, end - top, width, self.channels)?;
+        for row in rows.clone() {
+            self.fill(band, row)?;
+        }
+        if self.coverage == Coverage::Premultiplied {
+            band.rows_mut().for_each(|row| {
+                if let Some(alpha) = row.alpha {
+                    alpha::straighten(row.rgb, alpha);
+                }
+            });
+        }
+        self.next = rows.end;
+        Ok(())
+    }
+}
+
+impl<R: Read + Seek> TiffBands<R> {
+    /// Fills in a row of strips or tiles.
+    fn fill(&mut self, band: &mut Band, row: usize) -> Result<()> {
+        let across = self.size[0].div_ceil(self.chunk[0]);
+        let down = self.size[1].div_ceil(self.chunk[1]);
+        for plane in 0..self.planes {
+            for column in 0..across {
+                let index = u32::try_from(plane * across * down + row * across + column)?;
+                let decoder = &mut self.decoder;
+                let ((width, height), samples) =
+                    guarded(|| (decoder.chunk_data_dimensions(index), decoder.read_chunk(index)))?;
+                let samples = samples.map_err(sentence)?;
+                let part = Part {
+                    left: column * self.chunk[0],
+                    first_row: row * self.chunk[1] - band.top,
+                    size: [width as usize, height as usize],
+                    samples: self.samples,
+                    plane: (self.planes > 1).then_some(plane),
+                };
+                part.place(&samples, band)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Where the samples of a strip or tile go.
+struct Part {
+    left: usize,
+    /// Counted from the band's first.
+    first_row: usize,
+    size: [usize; 2],
+    /// Samples of a pixel, of all planes.
+    samples: usize,
+    /// The sample that the strip has where each has its own.
+    plane: Option<usize>,
+}
+
+impl Part {
+    fn place(&self, samples: &DecodingResult, band: &mut Band) -> Result<()> {
+        use DecodingResult::{F16, F32, F64, U8, U16, U32};
+        match samples {
+            U8(values) => self.put(values, band, |v| f32::from(v) / 255.0),
+            U16(values) => self.put(values, band, |v| f32::from(v) / 65_535.0),
+            U32(values) => self.put(values, band, |v| (f64::from(v) / f64::from(u32::MAX)) as f32),
+            F16(values) => self.put(values, band, half::f16::to_f32),
+            F32(values) => self.put(values, band, |v| v),
+            F64(values) => self.put(values, band, |v| v as f32),
+            _ => bail!("the TIFF's samples are signed or 64-bit integers, expected unsigned or floating point"),
         }
     }
-    if decoder.find_tag_unsigned::<u16>(Tag::Orientation).map_err(sentence)?.is_some_and(|way| way > 1) {
-        notes.push("left the TIFF's orientation as stored".to_owned());
-    }
-    let source = Source::Tiff { bits, samples: kind };
-    Ok(Picture { alpha, notes, ..Picture::opaque(width, height, rgb, source) })
-}
 
-/// How the samples lie: `planes` is 1 where a pixel's samples are side by side, else one plane a channel.
-struct Shape {
-    count: usize,
-    channels: usize,
-    planes: usize,
-}
-
-impl Shape {
-    fn pixels(&self, samples: &DecodingResult) -> Result<(Samples, Pixels)> {
-        use DecodingResult::{F16, F32, F64, U8, U16, U32};
-        use Samples::{Float, Integer};
-        Ok(match samples {
-            U8(values) => (Integer, self.converted(values, |v| f32::from(v) / 255.0)?),
-            U16(values) => (Integer, self.converted(values, |v| f32::from(v) / 65_535.0)?),
-            U32(values) => (Integer, self.converted(values, |v| (f64::from(v) / f64::from(u32::MAX)) as f32)?),
-            F16(values) => (Float, self.converted(values, half::f16::to_f32)?),
-            F32(values) => (Float, self.converted(values, |v| v)?),
-            F64(values) => (Float, self.converted(values, |v| v as f32)?),
-            _ => bail!("the TIFF's samples are signed or 64-bit integers, expected unsigned or floating point"),
-        })
-    }
-
-    fn converted<T: Copy>(&self, samples: &[T], value: impl Fn(T) -> f32) -> Result<Pixels> {
-        let &Self { count, channels, planes } = self;
-        if samples.len() != count * channels || (planes != 1 && planes != channels) {
+    fn put<T: Copy + Sync>(&self, samples: &[T], band: &mut Band, value: impl Fn(T) -> f32 + Sync) -> Result<()> {
+        let [width, height] = self.size;
+        let step = if self.plane.is_some() { 1 } else { self.samples };
+        let fits = self.left + width <= band.width && self.first_row + height <= band.rows();
+        if samples.len() != width * height * step || !fits {
             bail!(
-                "the TIFF gives {} samples in {planes} planes, expected {} of {channels} channels",
-                samples.len(),
-                count * channels
+                "the TIFF gives {} samples for {width} x {height} pixels of {step} channels in a strip or tile",
+                samples.len()
             );
         }
-        let (pixel_step, channel_step) = if planes == 1 { (channels, 1) } else { (1, count) };
-        let at = |pixel: usize, channel: usize| value(samples[pixel * pixel_step + channel * channel_step]);
-        let [green, blue] = if channels < 3 { [0, 0] } else { [1, 2] };
-        let mut rgb = allocate(count, [0.0; 3])?;
-        for (pixel, colour) in rgb.iter_mut().enumerate() {
-            *colour = [at(pixel, 0), at(pixel, green), at(pixel, blue)];
+        if samples.is_empty() {
+            return Ok(());
         }
-        let alpha = channels % 2 == 0;
-        let alpha = alpha.then(|| (0..count).map(|pixel| at(pixel, channels - 1)).collect());
-        Ok((rgb, alpha))
+        let rows = band.some_rows_mut(self.first_row..self.first_row + height);
+        let rows = rows.zip(samples.par_chunks_exact(width * step)).with_min_len(SAMPLES_TOGETHER / (width * step) + 1);
+        rows.for_each(|(mut row, samples)| {
+            for (channel, first) in (self.plane.unwrap_or(0)..self.samples).zip(0..step) {
+                let values = samples[first..].iter().step_by(step).map(|sample| value(*sample));
+                self.put_channel(&mut row, channel, values);
+            }
+        });
+        Ok(())
+    }
+
+    /// Writes one channel of a row of the part.
+    fn put_channel(&self, row: &mut RowMut<'_>, channel: usize, values: impl Iterator<Item = f32>) {
+        let columns = self.left..self.left + self.size[0];
+        let colours = &mut row.rgb[columns.clone()];
+        match (&mut row.alpha, self.samples) {
+            (Some(alpha), samples) if channel + 1 == samples => {
+                alpha[columns].iter_mut().zip(values).for_each(|(alpha, value)| *alpha = value);
+            }
+            (_, 1 | 2) => colours.iter_mut().zip(values).for_each(|(colour, value)| *colour = [value; 3]),
+            _ => colours.iter_mut().zip(values).for_each(|(colour, value)| colour[channel] = value),
+        }
     }
 }
 

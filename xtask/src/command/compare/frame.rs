@@ -8,7 +8,7 @@ use onelight::Process;
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Basis, Chromaticity, Reconstruction, RgbSpace, color_checker};
 
-use crate::picture::{self, Limits, Source};
+use crate::picture::{Band, Description, Limits, Source, open};
 use crate::{scene_colours, truth};
 
 /// Width of a tile in pixels; height of the scene's.
@@ -80,40 +80,37 @@ pub(super) fn chart_colours() -> Result<Vec<[f64; 3]>> {
 
 /// A picture of the user's, small, its log average at mid grey.
 pub(super) fn user(path: &Path) -> Result<Frame> {
-    let picture = picture::read(path, &Limits::default())?;
-    if picture.source != Source::Exr {
+    let mut picture = open(path, &Limits::default())?;
+    let Description { width, height, source, primaries, .. } = picture.description().clone();
+    if source != Source::Exr {
         bail!("{}: compare takes scene-linear pictures, expected an EXR", path.display());
     }
-    let to_srgb = scene_colours::to_input_space(&picture, &Process::default());
+    let to_srgb = scene_colours::to_input_space(primaries.as_ref(), &Process::default());
     let to_srgb = to_srgb.with_context(|| path.display().to_string())?.unwrap_or_else(Matrix3::identity);
-    let shrink = (picture.width as f64 / WIDTH as f64).max(picture.height as f64 / MAX_HEIGHT as f64).max(1.0);
-    let size = |pixels: usize| ((pixels as f64 / shrink) as usize).max(1);
-    let (width, height) = (size(picture.width), size(picture.height));
-    let mut rgb: Vec<[f64; 3]> = Vec::with_capacity(width * height);
-    for y in 0..height {
-        for x in 0..width {
-            let range =
-                |i: usize, count: usize, of: usize| i * of / count..((i + 1) * of / count).max(i * of / count + 1);
-            let (mut sum, mut count) = (Vector3::zeros(), 0.0);
-            for row in range(y, height, picture.height) {
-                for column in range(x, width, picture.width) {
-                    let light = picture.rgb[row * picture.width + column].map(f64::from);
-                    if light.iter().all(|v| v.is_finite()) {
-                        sum += Vector3::from(light);
-                        count += 1.0;
-                    }
-                }
-            }
-            let mean = to_srgb * sum / f64::max(count, 1.0);
-            rgb.push(mean.data.0[0].map(|v| v.max(0.0)));
+    let shrink = (width as f64 / WIDTH as f64).max(height as f64 / MAX_HEIGHT as f64).max(1.0);
+    let size = [width, height].map(|pixels| ((pixels as f64 / shrink) as usize).max(1));
+    // Sums of the finite pixels that fall on each small one, and their number.
+    let mut sums = vec![(Vector3::zeros(), 0.0); size[0] * size[1]];
+    let mut band = Band::default();
+    loop {
+        picture.next_into(&mut band)?;
+        if band.rgb.is_empty() {
+            break;
+        }
+        for (i, rgb) in band.rgb.iter().enumerate().filter(|(_, rgb)| rgb.iter().all(|v| v.is_finite())) {
+            let (x, y) = (i % width * size[0] / width, (band.top + i / width) * size[1] / height);
+            let (sum, count) = &mut sums[y * size[0] + x];
+            *sum += Vector3::from(rgb.map(f64::from));
+            *count += 1.0;
         }
     }
-    let exposed =
-        0.18 / log_average(&rgb)?.with_context(|| format!("{}: the picture holds no light", path.display()))?;
+    let mean = |(sum, count): &(Vector3<f64>, f64)| (to_srgb * sum / count.max(1.0)).data.0[0].map(|v| v.max(0.0));
+    let rgb: Vec<[f64; 3]> = sums.iter().map(mean).collect();
+    let average = log_average(&rgb)?.with_context(|| format!("{}: the picture holds no light", path.display()))?;
+    let rgb: Vec<[f32; 3]> = rgb.into_iter().map(|rgb| rgb.map(|v| (0.18 / average * v) as f32)).collect();
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
-    let rgb: Vec<[f32; 3]> = rgb.into_iter().map(|rgb| rgb.map(|v| (v * exposed) as f32)).collect();
-    Ok(Frame::new(stem.chars().map(plain).take(24).collect(), (width, height), &rgb))
+    Ok(Frame::new(stem.chars().map(plain).take(24).collect(), (size[0], size[1]), &rgb))
 }
 
 /// Geometric mean of the luminance of the pixels that have any.

@@ -1,5 +1,6 @@
 //! Laws of the whole module: what is written is read again, and what is broken is refused.
 
+mod bands;
 mod damage;
 mod exr;
 mod plain;
@@ -21,6 +22,97 @@ fn sample(width: usize, height: usize) -> Picture {
         *colour = [f32::INFINITY, f32::NAN, -3.5];
     }
     Picture::opaque(width, height, rgb, Source::Exr)
+}
+
+/// Reads all bands of a picture of `length` bytes.
+pub(super) fn read_from<R: BufRead + Seek + Send>(reader: R, length: u64, limits: &Limits) -> Result<Picture> {
+    let (description, mut bands) = open_from(reader, length, limits)?;
+    let Description { width, height, channels, windows, primaries, source, notes } = description;
+    let alpha = (channels == Channels::Rgba).then(Vec::new);
+    let mut picture = Picture { width, height, rgb: Vec::new(), alpha, windows, primaries, source, notes };
+    let mut band = Band::default();
+    loop {
+        bands.next_into(&mut band)?;
+        if band.rows() == 0 {
+            return Ok(picture);
+        }
+        assert_eq!((band.top * width, band.width), (picture.rgb.len(), width));
+        picture.rgb.extend_from_slice(&band.rgb);
+        if let (Some(all), Some(some)) = (&mut picture.alpha, &band.alpha) {
+            all.extend_from_slice(some);
+        }
+    }
+}
+
+/// Hands a picture over in bands of a few rows.
+fn hand_over(picture: BandView<'_>, sink: &mut dyn BandSink) -> Result<()> {
+    // What is left over when rows are counted comes with the last.
+    let rows = (picture.rgb.len() / picture.width).max(1);
+    for top in (0..rows).step_by(3) {
+        let pixels = top * picture.width..if top + 3 < rows { (top + 3) * picture.width } else { picture.rgb.len() };
+        let alpha = picture.alpha.map(|alpha| &alpha[pixels.start.min(alpha.len())..pixels.end.min(alpha.len())]);
+        sink.write(BandView { top, width: picture.width, rgb: &picture.rgb[pixels], alpha })?;
+    }
+    Ok(())
+}
+
+/// A display-coded picture.
+#[derive(Debug, Clone, PartialEq)]
+struct DisplayPicture {
+    width: usize,
+    height: usize,
+    rgb: Vec<[f32; 3]>,
+    alpha: Option<Vec<f32>>,
+}
+
+impl DisplayPicture {
+    fn view(&self) -> BandView<'_> {
+        BandView { top: 0, width: self.width, rgb: &self.rgb, alpha: self.alpha.as_deref() }
+    }
+
+    fn description(&self) -> Description {
+        let channels = if self.alpha.is_some() { Channels::Rgba } else { Channels::Rgb };
+        Description::plain(self.width, self.height, channels, Source::Exr)
+    }
+}
+
+impl Picture {
+    /// What a writer of display windows makes of bands of one row.
+    fn into_display(self) -> Result<DisplayPicture> {
+        let shown = display::Shown::new(&self.description());
+        let [width, height] = self.windows.display_size;
+        let mut rgb = vec![[0.0; 3]; width * height];
+        let mut alpha = self.alpha.as_ref().map(|_| vec![0.0; width * height]);
+        let mut next = 0;
+        for top in 0..self.height {
+            let pixels = top * self.width..(top + 1) * self.width;
+            let own = self.alpha.as_ref().map(|alpha| &alpha[pixels.clone()]);
+            let band = BandView { top, width: self.width, rgb: &self.rgb[pixels], alpha: own };
+            for row in shown.rows_of(band) {
+                assert!(row >= next && row < height, "row {row} after {next}");
+                next = row + 1;
+                let (columns, colours, coverage) = shown.row(row, band);
+                let columns = row * width + columns.start..row * width + columns.end;
+                rgb[columns.clone()].copy_from_slice(colours);
+                if let (Some(alpha), Some(coverage)) = (&mut alpha, coverage) {
+                    alpha[columns].copy_from_slice(coverage);
+                }
+            }
+        }
+        Ok(DisplayPicture { width, height, rgb, alpha })
+    }
+}
+
+/// Writes a display-coded picture as PNG.
+fn write_png_to(
+    writer: impl std::io::Write + Send,
+    picture: &DisplayPicture,
+    bits: Bits,
+    tag: Option<&ColourTag>,
+    texts: &[(&str, &str)],
+) -> Result<()> {
+    let fill = |sink: &mut dyn BandSink| hand_over(picture.view(), sink);
+    png_write::write_bands_to(writer, &picture.description(), bits, tag, texts, fill)
 }
 
 fn read_bytes(bytes: &[u8]) -> Result<Picture> {

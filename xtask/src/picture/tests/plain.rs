@@ -28,7 +28,7 @@ fn coded(most: u32) -> DisplayPicture {
 
 fn png(picture: &DisplayPicture, bits: Bits, tag: Option<&ColourTag>, texts: &[(&str, &str)]) -> Vec<u8> {
     let mut bytes = Vec::new();
-    png_write::write_to(&mut bytes, picture, bits, tag, texts).unwrap();
+    write_png_to(&mut bytes, picture, bits, tag, texts).unwrap();
     bytes
 }
 

@@ -183,12 +183,16 @@ fn the_format_is_told_by_the_bytes_and_not_by_the_name() {
 fn a_picture_that_contradicts_itself_is_not_written() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.png");
+    let write_png = |path: &Path, picture: &DisplayPicture, texts: &[(&str, &str)]| {
+        let fill = |sink: &mut dyn BandSink| hand_over(picture.view(), sink);
+        write_png_bands(path, &picture.description(), Bits::Eight, None, texts, fill)
+    };
     let wrong = DisplayPicture { width: 3, height: 2, rgb: vec![[0.0; 3]; 5], alpha: None };
-    assert!(write_png(&path, &wrong, Bits::Eight, None, &[]).is_err());
+    assert!(write_png(&path, &wrong, &[]).is_err());
     let right = DisplayPicture { rgb: vec![[0.0; 3]; 6], ..wrong };
-    assert!(write_png(&path, &right, Bits::Eight, None, &[("", "empty key")]).is_err());
+    assert!(write_png(&path, &right, &[("", "empty key")]).is_err());
     let short = Picture { alpha: Some(vec![1.0; 3]), ..sample(2, 2) };
     assert!(write_exr(&path, &short, &[]).is_err());
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
-    write_png(&path, &right, Bits::Eight, None, &[]).unwrap();
+    write_png(&path, &right, &[]).unwrap();
 }

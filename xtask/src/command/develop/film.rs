@@ -1,0 +1,68 @@
+//! The film in the form that was asked for.
+
+use anyhow::Result;
+use clap::ValueEnum;
+use indicatif::ProgressBar;
+use onelight::{Look, Process};
+use rayon::prelude::*;
+
+use crate::compiled::{self, Compiled, Recipe};
+use crate::picture::Band;
+
+/// How the film is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Form {
+    /// Exact: every pixel through the spectra, in float64
+    Reference,
+    /// A 33^3 table with a log2 shaper, as `bake` writes it
+    Plain,
+    /// A 32^3 table whose axes are the film's curves, as `bake --form structured` writes it
+    Structured,
+    /// No table: curves and a few exponentials, as `bake --form direct` writes them
+    Direct,
+}
+
+/// A film, ready for any number of pictures on any number of threads.
+pub(crate) enum Film {
+    /// The film itself.
+    Exact(Box<Look>),
+    /// What was baked of it.
+    Compiled(Box<Compiled>),
+}
+
+impl Film {
+    pub(crate) fn new(process: &Process, form: Form) -> Result<Self> {
+        let film = process.look()?;
+        let form = match form {
+            Form::Reference => return Ok(Self::Exact(Box::new(film))),
+            Form::Plain => compiled::Form::Plain,
+            Form::Structured => compiled::Form::Structured,
+            Form::Direct => compiled::Form::Direct,
+        };
+        Ok(Self::Compiled(Box::new(Compiled::new(&film, process, &Recipe::usual(form), None)?)))
+    }
+
+    /// Scene-linear to display-coded, in place; `progress` counts rows.
+    pub(super) fn develop(&self, band: &mut Band, progress: &ProgressBar) {
+        match self {
+            Self::Exact(film) => band.rows_mut().for_each(|row| {
+                for rgb in row.rgb {
+                    *rgb = film.develop(rgb.map(f64::from)).map(|v| v as f32);
+                }
+                progress.inc(1);
+            }),
+            Self::Compiled(compiled) => {
+                compiled.apply_to_slice(&mut band.rgb);
+                progress.inc(band.rows() as u64);
+            }
+        }
+    }
+
+    /// The brightest scene value that the form tells from brighter ones.
+    pub(super) fn max(&self) -> Option<f64> {
+        match self {
+            Self::Exact(_) => None,
+            Self::Compiled(compiled) => compiled.max(),
+        }
+    }
+}

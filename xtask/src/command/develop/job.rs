@@ -1,0 +1,149 @@
+//! One picture, from file to file.
+
+use std::path::Path;
+
+use anyhow::{Context, Result, bail};
+use indicatif::ProgressBar;
+use onelight::spectra::Chromaticity;
+use onelight::{Process, TransferCurve};
+use rayon::prelude::*;
+
+use super::bands::{Busy, look_through, pass};
+use super::exposure::{Exposure, Meter};
+use super::film::Film;
+use super::light::{InputPrimaries, Light};
+use crate::exposure::SceneExposure;
+use crate::picture::{
+    Band, BandSink, Bits, Chromaticities, Coding, ColourTag, Description, Limits, open, write_exr_bands,
+    write_png_bands,
+};
+
+/// Everything that decides how a picture is developed; the same for all pictures of a run.
+pub(crate) struct Settings {
+    pub(crate) process: Process,
+    pub(crate) film: Film,
+    pub(crate) exposure: Exposure,
+    /// What camera and frame buffer make of a picture's numbers.
+    pub(crate) scene: SceneExposure,
+    /// Transfer curve of what comes in, where it was named.
+    pub(crate) input_coding: Option<TransferCurve>,
+    pub(crate) input_primaries: InputPrimaries,
+    pub(crate) target: Target,
+    pub(crate) limits: Limits,
+}
+
+/// What is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Target {
+    /// The display window, display-coded.
+    Png(Bits),
+    /// The data window, linear.
+    Exr,
+}
+
+/// What became of a picture.
+#[derive(Debug)]
+pub(crate) struct Developed {
+    /// Width and height of what was written.
+    pub(crate) size: [usize; 2],
+    /// The exposure it was given, in stops.
+    pub(crate) ev: f64,
+    /// What the user should know.
+    pub(crate) notes: Vec<String>,
+    pub(crate) busy: Busy,
+}
+
+/// Develops the picture in one file into another. May run beside others: it holds three bands of each picture (see
+/// [`pass`]), and the threads are shared. `progress` counts rows, those of a first look for [`Exposure::Auto`] too.
+///
+/// # Errors
+/// One sentence that starts with the path it is about; then `output` is as it was before.
+pub(crate) fn develop_picture(
+    settings: &Settings,
+    input: &Path,
+    output: &Path,
+    progress: &ProgressBar,
+) -> Result<Developed> {
+    let Settings { process, film, exposure, input_primaries, target, .. } = settings;
+    let mut picture = open(input, &settings.limits)?;
+    let description = picture.description().clone();
+    let mut notes = description.notes.clone();
+    let light = Light::new(&description, process, settings.input_coding, *input_primaries, &settings.scene, &mut notes);
+    let light = light.with_context(|| input.display().to_string())?;
+    let height = description.height as u64;
+
+    let mut meter = Meter::default();
+    let ev = match *exposure {
+        Exposure::Stops(stops) => {
+            progress.set_length(height);
+            stops
+        }
+        Exposure::Auto => {
+            progress.set_length(2 * height);
+            look_through(&mut picture, |band| {
+                light.measure(band, &mut meter);
+                progress.inc(band.rows() as u64);
+            })?;
+            picture = open(input, &settings.limits)?;
+            if *picture.description() != description {
+                bail!("{}: the file changed while it was read", input.display());
+            }
+            meter.auto()
+        }
+    };
+    let mut beyond = 0;
+    let develop = |band: &mut Band| {
+        light.expose(band, ev, (*exposure != Exposure::Auto).then_some(&mut meter));
+        beyond += film.max().map_or(0, |max| brighter(band, max));
+        film.develop(band, progress);
+    };
+    let busy = write(output, *target, process, &description, |sink| pass(&mut picture, develop, sink))?;
+
+    notes.extend(meter.notes(*exposure, ev));
+    if beyond > 0 {
+        let max = film.max().unwrap_or_default();
+        notes.push(format!(
+            "{beyond} pixels are brighter than {max:.1}, where the plain table ends (--form structured has no end)"
+        ));
+    }
+    let size = match target {
+        Target::Png(_) => description.windows.display_size,
+        Target::Exr => [description.width, description.height],
+    };
+    Ok(Developed { size, ev, notes, busy })
+}
+
+/// Pixels with a channel over `max`.
+fn brighter(band: &Band, max: f64) -> usize {
+    let rows = band.rgb.par_chunks(band.width.max(1));
+    rows.map(|row| row.iter().filter(|rgb| rgb.iter().any(|v| f64::from(*v) > max)).count()).sum()
+}
+
+/// Writes what `fill` hands over as the process's display sees it.
+fn write<T>(
+    path: &Path,
+    target: Target,
+    process: &Process,
+    scene: &Description,
+    fill: impl FnOnce(&mut dyn BandSink) -> Result<T>,
+) -> Result<T> {
+    let space = process.output_space.space();
+    let xy = |c: Chromaticity| [c.x as f32, c.y as f32];
+    let [red, green, blue] = space.primaries.map(xy);
+    let primaries = Chromaticities { red, green, blue, white: xy(space.white) };
+    let look = process.to_toml();
+    let software = format!("onelight {}", env!("CARGO_PKG_VERSION"));
+    let texts = [("Software", software.as_str()), ("onelight look", look.as_str())];
+    let picture = Description { primaries: Some(primaries), ..scene.clone() };
+    match target {
+        Target::Exr => write_exr_bands(path, &picture, &texts, fill),
+        Target::Png(bits) => {
+            let coding = match process.output_coding {
+                TransferCurve::Srgb => Coding::Srgb,
+                TransferCurve::Gamma24 => Coding::Gamma24,
+                TransferCurve::Linear => Coding::Linear,
+            };
+            write_png_bands(path, &picture, bits, Some(&ColourTag { coding, primaries }), &texts, fill)
+        }
+    }
+}

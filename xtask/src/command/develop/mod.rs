@@ -1,0 +1,133 @@
+mod bands;
+mod exposure;
+mod film;
+mod job;
+mod light;
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Result, bail};
+use clap::Args;
+use onelight::{TransferCurve, Word};
+use serde_json::json;
+
+use self::exposure::Exposure;
+use self::film::{Film, Form};
+use self::job::{Developed, Settings, Target, develop_picture};
+use self::light::InputPrimaries;
+use crate::exposure::ExposureArguments;
+use crate::look::{LookArguments, words};
+use crate::picture::{Bits, Limits};
+use crate::progress::{Clock, bar};
+use crate::{Report, folders};
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Scene-linear picture: EXR, or 16-bit or float TIFF or PNG
+    #[arg(value_name = "IN")]
+    input: PathBuf,
+    /// Developed picture: .png (display-coded) or .exr (linear, display-referred, not clipped)
+    #[arg(value_name = "OUT")]
+    output: PathBuf,
+    #[command(flatten)]
+    look: LookArguments,
+    #[command(flatten)]
+    camera: ExposureArguments,
+    /// Exposure in stops, or auto: the log average of the picture comes to 0.18
+    #[arg(long, default_value = "0", value_name = "STOPS|auto", allow_hyphen_values = true)]
+    ev: Exposure,
+    /// How the film is computed
+    #[arg(long, default_value = "reference")]
+    form: Form,
+    /// Transfer curve of a TIFF or PNG that comes in [default: srgb for integers, linear for floats]
+    #[arg(long, value_parser = words::<TransferCurve>())]
+    input_coding: Option<TransferCurve>,
+    /// Bits of a PNG that goes out [default: 8]
+    #[arg(long, value_parser = ["8", "16"], value_name = "8|16")]
+    bits: Option<String>,
+    /// Print the result as one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
+    let mut clock = Clock::default();
+    let target = target(&arguments.output, arguments.bits.as_deref())?;
+    if same_file(&arguments.input, &arguments.output) {
+        bail!(
+            "{}: the output would replace the picture it is made from, expected another name",
+            arguments.output.display()
+        );
+    }
+    let mut process = arguments.look.process()?;
+    let mut notes = Vec::new();
+    if target == Target::Exr && arguments.bits.is_some() {
+        notes.push("an EXR holds 32-bit floats: --bits is not used".to_owned());
+    }
+    if target == Target::Exr && process.output_coding != TransferCurve::Linear {
+        notes.push(format!("an EXR holds linear light: not coded by {}", process.output_coding.word()));
+        process.output_coding = TransferCurve::Linear;
+    }
+    let scene = arguments.camera.resolve(&process)?;
+    if scene.is_metered() && arguments.ev == Exposure::Auto {
+        bail!("--ev auto exposes by the picture: the camera's settings change nothing, expected one or the other");
+    }
+    let settings = Settings {
+        film: clock.time("compile", || Film::new(&process, arguments.form))?,
+        process,
+        exposure: arguments.ev,
+        scene,
+        input_coding: arguments.input_coding,
+        input_primaries: if arguments.look.names_input_space() {
+            InputPrimaries::OfLook
+        } else {
+            InputPrimaries::OfFile
+        },
+        target,
+        limits: Limits::default(),
+    };
+    let progress = bar("developing", 0);
+    let developed =
+        clock.time("develop", || develop_picture(&settings, &arguments.input, &arguments.output, &progress));
+    progress.finish_and_clear();
+    let Developed { size, ev, notes: more, busy } = developed?;
+    notes.extend(more);
+
+    let process = &settings.process;
+    let mut text = String::new();
+    let output = folders::shown(&arguments.output);
+    let _ = writeln!(text, "{output}   {}x{}, {}, {ev:+.2} EV", size[0], size[1], process.name());
+    for note in &notes {
+        let _ = writeln!(text, "  note: {note}");
+    }
+    let steps = [("reading", busy.reading), ("film", busy.developing), ("writing", busy.writing)];
+    let shown = steps.map(|(step, time)| format!("{step} {:.2} s", time.as_secs_f64())).join(", ");
+    let _ = writeln!(text, "time: {} (side by side: {shown})", clock.sentence());
+    let steps: serde_json::Map<_, _> =
+        steps.map(|(step, time)| (step.to_owned(), time.as_secs_f64().into())).into_iter().collect();
+    let json = json!({
+        "process": process,
+        "input": arguments.input.display().to_string(),
+        "output": output,
+        "size": size,
+        "ev": ev,
+        "notes": notes,
+        "seconds": clock.json(),
+        "seconds_side_by_side": steps,
+    });
+    Ok(Report { text, json, as_json: arguments.json })
+}
+
+fn same_file(a: &Path, b: &Path) -> bool {
+    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+}
+
+fn target(path: &Path, bits: Option<&str>) -> Result<Target> {
+    match path.extension().map(|e| e.to_string_lossy().to_lowercase()).as_deref() {
+        Some("png") if bits == Some("16") => Ok(Target::Png(Bits::Sixteen)),
+        Some("png") => Ok(Target::Png(Bits::Eight)),
+        Some("exr") => Ok(Target::Exr),
+        _ => bail!("{}: the output's name ends in neither .png nor .exr, expected one of them", path.display()),
+    }
+}
