@@ -3,7 +3,7 @@ use onelight_spectra::{Chromaticity, DisplayDifference, RgbSpace, TransferCurve}
 
 use super::Approach;
 use crate::error::Error;
-use crate::process::Process;
+use crate::process::{Process, useful};
 use crate::scene::SCENE_MAX;
 
 /// Tone mapping without film: what the looks are compared with.
@@ -18,6 +18,7 @@ pub struct Baseline {
 
 impl Baseline {
     pub(crate) fn new(process: &Process) -> Result<Self, Error> {
+        useful(process)?;
         let white = Chromaticity::black_body_6500_k();
         let output = process.output_space.space();
         Ok(Self {

@@ -67,7 +67,7 @@ fn numbers(process: &Process) -> Result<(), Error> {
 }
 
 /// Whether every switch that was turned does something.
-pub(super) fn useful(process: &Process) -> Result<(), Error> {
+pub(crate) fn useful(process: &Process) -> Result<(), Error> {
     let usual = Process::default();
     let printer = [
         ("light", process.light != usual.light),

@@ -10,7 +10,7 @@ use onelight_printing::{
 use onelight_spectra::{Reconstruction, TransferCurve};
 use serde::{Deserialize, Serialize};
 
-pub(crate) use films::Films;
+pub(crate) use films::{Films, useful};
 pub use toml_text::FormatVersion;
 
 use crate::approach::{Approach, FirstControls, Look, no_film};

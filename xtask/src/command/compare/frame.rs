@@ -12,8 +12,8 @@ use crate::picture::{Band, Description, Limits, Source, open};
 use crate::{scene_colours, truth};
 
 /// Width of a tile in pixels; height of the scene's.
-pub(super) const WIDTH: usize = 320;
-const SCENE_HEIGHT: usize = 180;
+pub(super) const WIDTH: usize = 288;
+const SCENE_HEIGHT: usize = 162;
 /// A picture of the user's taller than this is made narrower instead.
 const MAX_HEIGHT: usize = 320;
 
@@ -57,7 +57,7 @@ pub(super) fn scene() -> Result<Frame> {
 /// The ColorChecker under the white of the scene, as a display of its patches.
 pub(super) fn chart() -> Result<Frame> {
     /// Side of a patch and the black between two, in pixels.
-    const PATCH: (usize, usize) = (46, 6);
+    const PATCH: (usize, usize) = (41, 6);
     let patches = chart_colours()?;
     let pitch = PATCH.0 + PATCH.1;
     let (width, height) = (6 * pitch + PATCH.1, 4 * pitch + PATCH.1);
@@ -129,7 +129,7 @@ mod tests {
     fn the_chart_shows_its_patches_in_order() {
         let (chart, patches) = (chart().unwrap(), chart_colours().unwrap());
         let rgb = chart.spread(&chart.colours);
-        let at = |column: usize, row: usize| rgb[(row * 52 + 30) * chart.width + column * 52 + 30];
+        let at = |column: usize, row: usize| rgb[(row * 47 + 30) * chart.width + column * 47 + 30];
         assert_eq!(at(0, 0), patches[0].map(|v| v as f32));
         assert_eq!(at(5, 3), patches[23].map(|v| v as f32));
         assert_eq!(rgb[0], [0.0; 3]);

@@ -110,7 +110,7 @@ mod tests {
         let tiles = [tile(Ok(vec![[1.0; 3]; 6])), tile(Err("no light".to_owned())), tile(Ok(vec![[0.5; 3]; 6]))];
         let bytes = sheet("title", 2, &tiles).unwrap();
         let sheet = image::load_from_memory(&bytes).unwrap().to_rgb8();
-        assert_eq!(sheet.dimensions(), (2 * 330 + 10, 40 + 2 * 52));
+        assert_eq!(sheet.dimensions(), (2 * 298 + 10, 40 + 2 * 52));
         assert_eq!(sheet.get_pixel(10, 80).0, [255; 3]);
         assert_eq!(sheet.get_pixel(10, 80 + 52).0, [128; 3]);
         let map = image::load_from_memory(&differences(2, &[0.0, 5.0, 10.0, 99.0]).unwrap()).unwrap().to_rgb8();

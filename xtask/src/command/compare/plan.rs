@@ -282,8 +282,8 @@ mod tests {
             let captions: HashSet<&str> = sheet.shots.iter().map(|shot| shot.caption.as_str()).collect();
             assert_eq!(captions.len(), sheet.shots.len(), "{}", sheet.name);
             for shot in &sheet.shots {
-                // Letters of 8 pixels on a tile of 320.
-                assert!(shot.caption.len() <= 40, "{}", shot.caption);
+                // Letters of 8 pixels on a tile of 288.
+                assert!(shot.caption.len() <= 36, "{}", shot.caption);
                 assert!(shot.beside.is_none_or(|i| sheet.shots[i].ev == shot.ev), "{}", shot.caption);
             }
         }
