@@ -8,6 +8,7 @@ mod direct_file;
 mod export;
 mod exposure;
 mod folders;
+mod likeness;
 mod look;
 mod picture;
 mod plot;

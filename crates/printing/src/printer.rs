@@ -21,11 +21,13 @@ pub enum PrinterLight {
     #[default]
     Separations,
     /// A subtractive printer: one white beam, balanced for each layer by itself, as ideal colour-correcting filters would.
-    /// The layers' sensitivities overlap in white light: prints lose chroma against separations.
+    /// The layers' sensitivities overlap in white light: prints lose chroma against separations, dE 1.1 in
+    /// the mean for 5207 on 2383.
     White,
 }
 
-/// The gelatin filters that are in the printer: all of [`Wratten::ALL`], or fewer to see what each is for.
+/// The gelatin filters that are in the printer: all of [`Wratten::ALL`], or fewer to see what each is for. 5207 on 2383 cannot be
+/// calibrated without No. 70 or No. 99; taking No. 98 out is dE 0.55 in the mean, No. 2B 0.05.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Filters([bool; Wratten::ALL.len()]);
 
@@ -56,7 +58,9 @@ impl Default for Filters {
 
 /// A printer: a 3200 K lamp whose light is split by Wratten 70, 99 and 98 behind a 2B (\[Gotanda2010\], step 5).
 ///
-/// The default is a printer as built; its other settings show what each part does.
+/// The default is a printer as built; its other settings show what each part does. With the default tail infrared changes
+/// nothing (dE 0.000) and taking the glass away 0.07 dE in the mean, 0.17 at most; with a held tail and no glass the
+/// calibration has no solution, and cut at 780 nm it has one that differs by up to 3.0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Printer {
     /// Three beams, or one.

@@ -9,13 +9,13 @@ use crate::error::Error;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct FirstControls {
-    /// Steepness about the code of mid grey, 0 to 4: 1.2 is dE 3 to 4 in the mean.
+    /// Steepness about the code of mid grey, 0 to 4: 1.2 is dE 3.5 in the mean.
     pub contrast: f64,
-    /// Added to the display-coded value, -1 to 1: 0.05 is dE 3 to 4 in the mean.
+    /// Added to the display-coded value, -1 to 1: 0.05 is dE 3.8 in the mean.
     pub brightness: f64,
-    /// Colour of the light that white should look like, 2000 to 20000 K: 5500 K is dE 4 in the mean.
+    /// Colour of the light that white should look like, 2000 to 20000 K: 5000 K is dE 5.3 in the mean.
     pub temperature: f64,
-    /// Distance from the grey of the same luma, 0 to 4: 1.2 is dE 2 in the mean.
+    /// Distance from the grey of the same luma, 0 to 4: 1.3 is dE 2.8 in the mean.
     pub saturation: f64,
     /// Points that the tone curve is bent through: stops about mid grey, and display-coded value.
     pub curve: Vec<[f64; 2]>,

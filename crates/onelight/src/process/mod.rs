@@ -52,8 +52,8 @@ pub struct Process {
     /// Equivalent neutral density of a grey card in neutral aim, 0.05 to 3. 0.3 more is a stop darker.
     pub neutral_density: f64,
     /// Stops that the camera film is exposed over its normal exposure, -10 to 10. The printer is set for the grey card so
-    /// exposed, as a lab does: grey stays, shadows and highlights move along the film's curves (5207 on 2383 dE 0.8 in the
-    /// mean for +1, 3.0 for +3). Reversal film has no print to correct it: the picture is brighter.
+    /// exposed, as a lab does: grey stays, shadows and highlights move along the film's curves (5207 on 2383 dE 3.6 in the
+    /// mean for -3, 0.2 for +1, 0.7 for +3). Reversal film has no print to correct it: the picture is brighter.
     pub overexposure: f64,
     /// How densities become amounts of dye.
     #[serde(with = "word::text")]
@@ -76,7 +76,7 @@ pub struct Process {
     #[serde(with = "toml_text::calibration")]
     pub calibration: Calibration,
     /// Printer points by which red, green and blue light are moved once they are found, -50 to 50
-    /// ([`onelight_printing::POINT_LOG_EXPOSURE`] each): the lab's colour correction. One point of all three on 2383 is dE 0.9
+    /// ([`onelight_printing::POINT_LOG_EXPOSURE`] each): the lab's colour correction. One point of all three on 2383 is dE 1.9
     /// in the mean.
     pub points: [f64; 3],
     /// Whether infrared takes part in printing.

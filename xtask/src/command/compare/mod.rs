@@ -203,3 +203,36 @@ fn as_json(section: &Section) -> Value {
     });
     json!({ "file": format!("{}.png", section.file), "title": section.title, "rows": rows.collect::<Vec<_>>() })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// docs/talk.md has the figures of every shot at normal exposure that has something to be compared with.
+    #[test]
+    fn docs_hold_the_sizes() {
+        let docs = include_str!("../../../../docs/talk.md");
+        let (chart, mut darkroom) = (frame::chart_colours().unwrap(), Darkroom::default());
+        let mut count = 0;
+        for sheet in plan::sheets().unwrap() {
+            for shot in sheet.shots.iter().filter(|shot| shot.ev == 0) {
+                let Some(beside) = shot.beside else { continue };
+                let (plain, turned) = (darkroom.look(&sheet.shots[beside].process), darkroom.look(&shot.process));
+                let (Ok(plain), Ok(turned)) = (plain, turned) else { continue };
+                let Distance { mean, p95, max } = on_chart(&plain, &turned, &chart).unwrap();
+                let row = format!("| {} | {mean:.2} | {p95:.2} | {max:.2} |", shot.caption);
+                assert!(docs.lines().any(|line| line.starts_with(&row)), "docs/talk.md lacks: {row}");
+                count += 1;
+            }
+        }
+        assert!(count > 50, "{count}");
+    }
+
+    #[test]
+    fn sheets_are_chosen_by_name() {
+        assert_eq!(chosen(&["infrared".to_owned()]).unwrap().len(), 1);
+        assert!(chosen(&[BANDING.to_owned()]).unwrap().is_empty());
+        let error = chosen(&["infared".to_owned()]).map(|_| ()).unwrap_err().to_string();
+        assert!(error.contains("infared") && error.contains("infrared"), "{error}");
+    }
+}

@@ -40,7 +40,9 @@ pub(super) fn sheet(title: &str, columns: usize, tiles: &[Tile]) -> Result<Vec<u
     let (pitch, top) = ((TILE + GAP, tall + 2 * LINE + GAP), 2 * LINE);
     let rows = (tiles.len() as u32).div_ceil(columns);
     let mut sheet = RgbImage::from_pixel(columns * pitch.0 + GAP, top + rows * pitch.1, BACKGROUND);
-    caption(&mut sheet, (GAP, GAP), TITLE_DOT, title);
+    let room = (sheet.width().saturating_sub(2 * GAP)) as usize;
+    let dot = if 16 * title.len() <= room { TITLE_DOT } else { DOT };
+    caption(&mut sheet, (GAP, GAP), dot, title);
     for (i, tile) in (0..).zip(tiles) {
         let (left, top) = (GAP + i % columns * pitch.0, top + i / columns * pitch.1);
         for (line, text) in (0..).zip(&tile.captions) {

@@ -157,7 +157,8 @@ fn iterations(negative: &Process) -> Sheet {
     let mut sheet = Sheet::new("iterations", "Calibration by iteration", text, 3);
     let exact = sheet.plain("exact", negative);
     for count in 0..=3 {
-        sheet.turned(format!("{count} iterations"), exact, |p| p.calibration = Calibration::Iterations(count));
+        let s = if count == 1 { "" } else { "s" };
+        sheet.turned(format!("{count} iteration{s}"), exact, |p| p.calibration = Calibration::Iterations(count));
     }
     sheet.turned("1, no density in beams", exact, |p| {
         (p.calibration, p.beam_density) = (Calibration::Iterations(1), [0.0; 3]);
@@ -217,12 +218,13 @@ fn printer(negative: &Process) -> Sheet {
     };
     let text = "White light instead of three beams costs chroma. Without the red or the green separation no lights balance the print. \
                 More of a light makes its complement: +4 points of red print cyan.";
-    let mut sheet = Sheet::new("printer", "Lights and filters of the printer", text, 3);
+    let mut sheet = Sheet::new("printer", "Lights and filters of the printer", text, 5);
     let usual = sheet.plain("separations, all filters", negative);
     sheet.turned("one white lamp", usual, |p| p.light = PrinterLight::White);
     for filter in Wratten::ALL {
         sheet.turned(format!("without Wratten {}", filter.word()), usual, |p| p.filters = without(filter));
     }
+    sheet.turned("+1 point of all", usual, |p| p.points = [1.0; 3]);
     for (name, points) in
         [("+4 points red", [4.0, 0.0, 0.0]), ("+4 points green", [0.0, 4.0, 0.0]), ("+4 points blue", [0.0, 0.0, 4.0])]
     {
@@ -259,7 +261,8 @@ fn overexposure(negative: &Process) -> Sheet {
 }
 
 fn matching(films: &[(&str, &Process)]) -> Sheet {
-    let text = "Balanced on a grey card, or by the sheet's own units: what its sensitivities and curves disagree on shows as a cast.";
+    let text = "Balanced on a grey card, or by the sheet's own units, under which light of another colour than the film is made for keeps its \
+                colour: 5219 is a tungsten film and shows daylight blue. What sensitivities and curves of a sheet disagree on adds to it.";
     let mut sheet = Sheet::new("matching", "Matching of exposure and curves", text, 2);
     for (name, process) in films {
         let usual = sheet.plain(format!("grey: {name}"), process);
