@@ -1,6 +1,6 @@
 //! What low-precision frame buffers between scene and film cost: the largest visible step on a grey ramp.
 
-use onelight::Reference;
+use onelight::Look;
 use onelight::spectra::BufferFormat;
 
 /// A buffer and the level that mid grey is stored at.
@@ -11,12 +11,21 @@ pub(crate) struct Case {
     scale: f64,
 }
 
+impl Case {
+    /// Scene light as it comes back from the buffer.
+    pub(crate) fn stored(&self, rgb: [f64; 3]) -> [f64; 3] {
+        self.format.quantise(rgb.map(|v| v * self.scale)).map(|v| v / self.scale)
+    }
+}
+
 /// The buffers that are compared: as they are, and with the talk's scale factor for the small float.
-pub(crate) const CASES: [Case; 5] = [
+pub(crate) const CASES: [Case; 7] = [
     Case { name: "8 bit linear, white at 4", format: BufferFormat::Unorm8, scale: 0.25 },
     Case { name: "8 bit sRGB-coded, white at 4", format: BufferFormat::Unorm8Srgb, scale: 0.25 },
     Case { name: "float 7e3, grey at 0.18", format: BufferFormat::Float7e3, scale: 1.0 },
     Case { name: "float 7e3, grey at 0.72", format: BufferFormat::Float7e3, scale: 4.0 },
+    Case { name: "R11G11B10, grey at 0.18", format: BufferFormat::R11G11B10, scale: 1.0 },
+    Case { name: "R11G11B10, grey at 0.72", format: BufferFormat::R11G11B10, scale: 4.0 },
     Case { name: "half", format: BufferFormat::Half, scale: 1.0 },
 ];
 
@@ -25,16 +34,16 @@ const RAMP_STOPS: (f64, f64) = (-8.0, 4.0);
 const RAMP_STEPS: u32 = 12_000;
 
 /// Largest difference between neighbours on a grey ramp after the buffer and the film.
-pub(crate) fn largest_step(case: &Case, film: &Reference) -> anyhow::Result<f64> {
+pub(crate) fn largest_step(case: &Case, film: &Look) -> anyhow::Result<f64> {
     let difference = film.difference()?;
-    let (mut largest, mut last) = (0f64, None::<(f64, [f64; 3])>);
+    let (mut largest, mut last) = (0f64, None::<([f64; 3], [f64; 3])>);
     for i in 0..=RAMP_STEPS {
         let stops = RAMP_STOPS.0 + (RAMP_STOPS.1 - RAMP_STOPS.0) * f64::from(i) / f64::from(RAMP_STEPS);
-        let stored = case.format.quantise([0.18 * stops.exp2() * case.scale; 3])[0] / case.scale;
+        let stored = case.stored([0.18 * stops.exp2(); 3]);
         if last.is_some_and(|(value, _)| value == stored) {
             continue;
         }
-        let shown = film.develop_linear([stored; 3]);
+        let shown = film.develop_linear(stored);
         if let Some((_, before)) = last {
             largest = largest.max(difference.between(before, shown));
         }
@@ -49,7 +58,7 @@ mod tests {
 
     #[test]
     fn the_scale_factor_buys_what_the_talk_says() {
-        let film = onelight::Process::default().compile().unwrap();
+        let film = onelight::Process::default().look().unwrap();
         let step = |name: &str| {
             let case = CASES.iter().find(|case| case.name == name).unwrap();
             largest_step(case, &film).unwrap()

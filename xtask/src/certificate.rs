@@ -6,18 +6,18 @@ use anyhow::Result;
 use onelight::lut::{Certificate, ColourSet, Law, Maps, Samples, Search, certify};
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Basis, Chromaticity, DisplayDifference, Reconstruction, color_checker};
-use onelight::{Process, Reference, WorkingSpace};
+use onelight::{Look, Process, WorkingSpace};
 
 /// A film with all that measuring against it needs.
 pub(crate) struct Measure<'a> {
-    film: &'a Reference,
+    film: &'a Look,
     process: &'a Process,
     difference: DisplayDifference,
     luminance: Vector3<f64>,
 }
 
 impl<'a> Measure<'a> {
-    pub(crate) fn new(film: &'a Reference, process: &'a Process) -> Result<Self> {
+    pub(crate) fn new(film: &'a Look, process: &'a Process) -> Result<Self> {
         let to_xyz = process.output_space.space().to_xyz()?;
         let luminance = to_xyz.row(1).transpose();
         Ok(Self { film, process, difference: film.difference()?, luminance })

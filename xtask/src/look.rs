@@ -9,6 +9,8 @@ use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use onelight::{Aim, DyeModel, Process, TransferCurve, Word, WorkingSpace};
 
+use crate::switches::Switches;
+
 /// Longest description that is read.
 const MAX_LOOK_BYTES: u64 = 64 * 1024;
 
@@ -40,6 +42,8 @@ pub(crate) struct LookArguments {
     /// Transfer curve of the display [default: srgb]
     #[arg(long, value_parser = words::<TransferCurve>())]
     output_coding: Option<TransferCurve>,
+    #[command(flatten)]
+    switches: Switches,
 }
 
 impl LookArguments {
@@ -64,6 +68,7 @@ impl LookArguments {
         process.input_space = self.input_space.unwrap_or(process.input_space);
         process.output_space = self.output_space.unwrap_or(process.output_space);
         process.output_coding = self.output_coding.unwrap_or(process.output_coding);
+        self.switches.apply(&mut process);
         Ok(process)
     }
 

@@ -6,7 +6,9 @@ mod command;
 mod compiled;
 mod direct_file;
 mod export;
+mod exposure;
 mod folders;
+mod likeness;
 mod look;
 mod picture;
 mod plot;
@@ -14,6 +16,8 @@ mod preview;
 mod progress;
 mod scene;
 mod scene_colours;
+mod sheet;
+mod switches;
 mod truth;
 mod whole;
 
@@ -47,6 +51,10 @@ enum Command {
     Stocks(command::stocks::Arguments),
     /// Render the fixture scene, and measure what going through RGB costs
     Fixtures(command::fixtures::Arguments),
+    /// Turn lux, lumen and kelvin into W/m^2 RGB, and say what a camera makes of it
+    Light(command::light::Arguments),
+    /// Put the looks and switches of the talk side by side: contact sheets and a page
+    Compare(command::compare::Arguments),
     /// Check the layers of the workspace against ARCHITECTURE.md
     Tidy(command::tidy::Arguments),
 }
@@ -87,6 +95,8 @@ fn run(command: Command) -> Result<Report> {
         Command::GpuBench(arguments) => command::gpu_bench::run(&arguments),
         Command::Stocks(arguments) => command::stocks::run(&arguments),
         Command::Fixtures(arguments) => command::fixtures::run(&arguments),
+        Command::Light(arguments) => command::light::run(&arguments),
+        Command::Compare(arguments) => command::compare::run(&arguments),
         Command::Tidy(arguments) => command::tidy::run(&arguments),
     }
 }

@@ -135,6 +135,85 @@ fn forms_and_formats_agree_on_the_scene() {
 }
 
 #[test]
+fn the_talk_is_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let text = done(folder, &["compare", "--sheets", "infrared,banding", "--out", "sheets"]);
+    assert!(text.contains("infrared off") && text.contains("float 7e3, grey at 0.72"), "{text}");
+    assert_eq!(
+        files(&folder.join("sheets")),
+        ["banding.png", "colorchecker_infrared.png", "index.html", "scene_infrared.png"]
+    );
+    assert!(!fs::read_to_string(folder.join("sheets/index.html")).unwrap().contains("http"));
+    assert!(refused(folder, &["compare", "--sheets", "none"]).contains("infrared"));
+    assert!(refused(folder, &["compare", "missing.exr"]).contains("missing.exr"));
+    let light: serde_json::Value =
+        serde_json::from_str(&done(folder, &["light", "--lux", "1000", "--kelvin", "3200", "--json"])).unwrap();
+    let published = [8.230, 4.500, 1.610];
+    for (found, published) in light["rgb_w_per_m2"].as_array().unwrap().iter().zip(published) {
+        assert!((found.as_f64().unwrap() - published).abs() < 1e-3, "{light}");
+    }
+    assert!(refused(folder, &["light", "--lux", "1e99"]).contains("1e12"));
+}
+
+#[test]
+fn every_approach_is_baked_and_developed() {
+    let folder = with_scene();
+    let folder = folder.path();
+    for approach in ["first", "reinhard", "reinhard-luminance", "clip"] {
+        done(folder, &["develop", "scene.exr", "exact.png", "--approach", approach, "--bits", "16"]);
+        done(folder, &["develop", "scene.exr", "table.png", "--approach", approach, "--form", "plain", "--bits", "16"]);
+        let coded = |path: &str| image::open(folder.join(path)).unwrap().to_rgb16();
+        let (exact, table) = (coded("exact.png"), coded("table.png"));
+        let mean = exact.iter().zip(table.iter()).map(|(a, b)| f64::from(a.abs_diff(*b))).sum::<f64>() / 691_200.0;
+        assert!(mean < 150.0, "{approach}: {mean} of 65535");
+    }
+    done(folder, &["bake", "--approach", "first", "--saturation", "0.9", "--size", "9", "--out", "a"]);
+    let look = fs::read_to_string(folder.join("a/look.toml")).unwrap();
+    assert!(look.contains("approach = \"first\"") && look.contains("saturation = 0.9"), "{look}");
+    done(folder, &["bake", "--look", "a/look.toml", "--size", "9", "--out", "b"]);
+    assert!(fs::read(folder.join("a/look.cube")).unwrap() == fs::read(folder.join("b/look.cube")).unwrap());
+    let sentence = refused(folder, &["bake", "--approach", "clip", "--form", "structured"]);
+    assert!(sentence.contains("expected approach second"), "{sentence}");
+}
+
+#[test]
+fn cameras_and_buffers_come_before_the_film() {
+    let folder = with_scene();
+    let folder = folder.path();
+    let bytes = |output: &str, arguments: &[&str]| {
+        done(folder, &[&["develop", "scene.exr", output, "--form", "structured"], arguments].concat());
+        fs::read(folder.join(output)).unwrap()
+    };
+    let plain = bytes("plain.png", &[]);
+    assert!(plain != bytes("banded.png", &["--buffer", "unorm8", "--buffer-scale", "0.25"]));
+    let camera = ["--shutter", "1/60", "--f-number", "2.8", "--iso", "400"];
+    let lux = bytes("lux.png", &[&["--unit", "lux"], &camera[..]].concat());
+    let brighter = bytes("iso.png", &["--unit", "lux", "--shutter", "1/60", "--f-number", "2.8", "--iso", "800"]);
+    assert!(lux != plain && lux != brighter);
+    let sentence = refused(folder, &["develop", "scene.exr", "a.png", "--shutter", "1/60"]);
+    assert!(sentence.contains("--unit"), "{sentence}");
+    let auto = [&["develop", "scene.exr", "a.png", "--ev", "auto", "--unit", "lux"], &camera[..]].concat();
+    assert!(refused(folder, &auto).contains("one or the other"));
+}
+
+#[test]
+fn switches_that_change_nothing_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let message = |arguments: &[&str]| refused(folder.path(), &[&["bake"], arguments].concat());
+    assert!(message(&["--camera", "fuji-velvia-50", "--points", "1,0,0"]).contains("points changes nothing"));
+    assert!(message(&["--contrast", "1.5"]).contains("approach first"));
+    assert!(message(&["--approach", "reinhard", "--aim", "sheet"]).contains("aim changes nothing"));
+    assert!(message(&["--approach", "first", "--glass", "none"]).contains("glass changes nothing"));
+    assert!(message(&["--aim", "sheet", "--neutral-density", "1"]).contains("neutral_density changes nothing"));
+    assert!(message(&["--light", "white", "--filters", "70,2b"]).contains("separation filters"));
+    assert!(message(&["--glass", "none", "--red-tail", "held"]).contains("printer lights"));
+    assert!(message(&["--filters", "none"]).contains("two printer lights do the same"));
+    assert!(message(&["--neutral-density", "9"]).contains("expected 0.05 to 3"));
+    assert!(message(&["--points", "99,0,0"]).contains("points: found 99, expected -50 to 50"));
+}
+
+#[test]
 fn commands_that_only_look_work() {
     let folder = tempfile::tempdir().unwrap();
     assert!(done(folder.path(), &["stocks"]).contains("kodak-kodachrome-64"));
@@ -142,7 +221,8 @@ fn commands_that_only_look_work() {
     let velvia: serde_json::Value =
         serde_json::from_str(&done(folder.path(), &["stocks", "fuji-velvia-50", "--json"])).unwrap();
     assert_eq!(velvia["kind"], "reversal");
-    for command in ["bake", "develop", "stocks", "fixtures", "tidy"] {
+    assert!(done(folder.path(), &["stocks", "--likeness"]).contains("kodak-portra-400"));
+    for command in ["bake", "compare", "develop", "light", "stocks", "fixtures", "tidy"] {
         assert!(done(folder.path(), &[command, "--help"]).contains("Usage"));
     }
 }

@@ -12,6 +12,7 @@ pub(crate) enum Kind {
     Lut(onelight_lut::Error),
     Look { file: String, line: usize, problem: String },
     Word { what: &'static str, found: String, expected: String },
+    Unreachable(String),
     Setting { what: String, found: f64, expected: String },
     UnknownStock { found: String, nearest: Option<&'static str> },
     Contradiction(String),
@@ -27,13 +28,24 @@ impl Error {
     /// Whether the film cannot be brought to its aim.
     #[must_use]
     pub fn is_unreachable_aim(&self) -> bool {
-        matches!(&self.0, Kind::Printing(error) if error.is_unreachable_aim())
+        matches!(&self.0, Kind::Unreachable(_))
+            || matches!(&self.0, Kind::Printing(error) if error.is_unreachable_aim())
     }
 
     /// Whether the parts of the process contradict each other, as a print for a reversal film does.
     #[must_use]
     pub fn is_contradiction(&self) -> bool {
         matches!(&self.0, Kind::Contradiction(_)) || matches!(&self.0, Kind::Printing(error) if error.is_wrong_kind())
+    }
+
+    /// Whether a number lay outside its range.
+    #[must_use]
+    pub fn is_setting(&self) -> bool {
+        matches!(self.0, Kind::Setting { .. })
+    }
+
+    pub(crate) fn setting(what: &str, found: f64, low: f64, high: f64) -> Self {
+        Kind::Setting { what: what.to_owned(), found, expected: format!("{low} to {high}") }.into()
     }
 
     pub(crate) fn print_film_in_camera(id: &str) -> Self {
@@ -94,7 +106,7 @@ impl fmt::Display for Error {
             Kind::UnknownStock { found, nearest: None } => {
                 write!(f, "no stock is called {found:?} (`cargo xtask stocks` lists all)")
             }
-            Kind::Contradiction(sentence) => f.write_str(sentence),
+            Kind::Contradiction(sentence) | Kind::Unreachable(sentence) => f.write_str(sentence),
         }
     }
 }

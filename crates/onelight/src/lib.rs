@@ -1,5 +1,5 @@
 //! Film simulation for HDR pictures: a [`Process`] names a camera film, a print film and the lights between them;
-//! [`Reference`] is that look, exact.
+//! [`Reference`] is that look, exact. [`Look`] takes the talk's first approach and plain tone mappings too.
 //!
 //! ```
 //! // A scene-linear colour on Kodak 5207, printed on 2383 and shown on an sRGB display.
@@ -17,15 +17,18 @@
 //! Files (all text comes in as `&str`), grain and halation. Keys in square brackets are resolved in REFERENCES.md at the top
 //! of the repository.
 
+mod approach;
 mod bake;
 mod direct;
 mod error;
 mod process;
 mod reference;
+mod scene;
 mod stocks;
 mod structured;
 mod word;
 
+pub use approach::{Approach, Baseline, FirstApproach, FirstControls, Look, PostColour, ToneCurve};
 pub use direct::{DirectSettings, Nodes};
 pub use error::Error;
 pub use onelight_film as film;
@@ -34,11 +37,12 @@ pub use onelight_film::{DyeModel, Matching, Stock, StockKind, Tail};
 pub use onelight_gpu as gpu;
 pub use onelight_lut as lut;
 pub use onelight_printing as printing;
-pub use onelight_printing::{Aim, HeatGlass, Infrared, Projector};
+pub use onelight_printing::{Aim, Calibration, Filters, HeatGlass, Infrared, PrinterLight, Projector, Wratten};
 pub use onelight_spectra as spectra;
 pub use onelight_spectra::{Reconstruction, TransferCurve};
 pub use process::{DEFAULT_CAMERA, DEFAULT_PRINT, FormatVersion, Process};
-pub use reference::{Reference, SCENE_MAX, Stages};
+pub use reference::{Reference, Stages};
+pub use scene::SCENE_MAX;
 pub use stocks::{stock, stock_ids};
 pub use structured::{Entries, StructuredSettings, TableCoding};
 pub use word::{Word, WorkingSpace};

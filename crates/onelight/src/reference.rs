@@ -1,19 +1,15 @@
-use nalgebra::{Matrix3, Vector3};
-use onelight_film::{AmountCurve, DyeAmount, ExposureMatrix, LogExposure, PerLayer, Stock, StockKind};
+use nalgebra::Matrix3;
+use onelight_film::{AmountCurve, DyeAmount, ExposureMatrix, LogExposure, PerLayer, Stock};
 use onelight_printing::{
-    Duplication, LitDuplication, PrinterLights, Projection, print_mid_grey, print_target, reversal_target,
+    Duplication, EquivalentNeutralDensity, LitDuplication, PrinterLights, Projection, print_mid_grey, print_target,
+    reversal_target,
 };
 use onelight_spectra::quantity::Power;
-use onelight_spectra::{
-    Basis, Chromaticity, DisplayDifference, RgbSpace, SpectralDistribution, SpectralShape, TransferCurve,
-};
+use onelight_spectra::{Basis, DisplayDifference, RgbSpace, SpectralDistribution, SpectralShape, TransferCurve};
 
-use crate::error::{Error, Kind};
-use crate::process::Process;
-use crate::stocks::stock;
-
-/// The brightest scene value: more would overflow float32 in the exposure matrix.
-pub const SCENE_MAX: f64 = 1e30;
+use crate::error::Error;
+use crate::process::{Films, Process};
+use crate::scene::SceneInput;
 
 /// A [`Process`] compiled: every step in float64 at 1 nm. The measure of all faster forms.
 ///
@@ -25,7 +21,7 @@ pub const SCENE_MAX: f64 = 1e30;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Reference {
-    to_srgb: Matrix3<f64>,
+    scene: SceneInput,
     exposure: ExposureMatrix,
     mid_grey: PerLayer<LogExposure>,
     camera: PerLayer<AmountCurve>,
@@ -67,9 +63,8 @@ pub struct Stages {
 
 impl Reference {
     pub(crate) fn new(process: &Process) -> Result<Self, Error> {
-        let film = stock(&process.camera)?;
-        let print = process.print.as_deref().map(stock).transpose()?;
-        check(&film, print.as_ref())?;
+        let Films { camera: film, print } = Films::of(process)?;
+        let density = EquivalentNeutralDensity::new(process.neutral_density)?;
         let output = process.output_space.space();
         let basis = Basis::new(process.reconstruction)?;
         let own_grey = PerLayer::all(film.mid_grey()?);
@@ -80,20 +75,21 @@ impl Reference {
         let (camera, paper) = (camera?, paper?);
         let shown = print.as_ref().unwrap_or(&film);
         let projection = Projection::new(shown.dyes_on(SpectralShape::VISIBLE)?, process.projector, &output)?;
-        let mid_grey = match print {
+        let normal = match print {
             Some(_) => own_grey,
-            None => reversal_target(process.aim, &film, own_grey, camera.as_ref(), &projection)?,
+            None => reversal_target(process.aim, density, &film, own_grey, camera.as_ref(), &projection)?,
         };
+        let over = process.overexposure * std::f64::consts::LOG10_2;
+        let mid_grey = normal.map(|h| LogExposure(h.0 + over));
         let print = match print.as_ref().zip(paper) {
             Some((print, paper)) => {
                 Some(PrintStep::new(process, &film, (print, paper), &camera, mid_grey, &projection)?)
             }
             None => None,
         };
-        let white = Chromaticity::black_body_6500_k();
         Ok(Self {
-            to_srgb: process.input_space.space().to_about(&RgbSpace::SRGB, white)?,
-            exposure: ExposureMatrix::new(&film, &basis, process.matching, mid_grey)?,
+            scene: SceneInput::new(process)?,
+            exposure: ExposureMatrix::new(&film, &basis, process.matching, normal)?.overexposed(process.overexposure),
             mid_grey,
             camera,
             print,
@@ -105,7 +101,7 @@ impl Reference {
 
     /// Scene-linear RGB to display-coded RGB, not clipped.
     ///
-    /// Every input gives a finite result: NaN counts as 0, each channel is held to ±[`SCENE_MAX`], and what is negative in
+    /// Every input gives a finite result: NaN counts as 0, each channel is held to ±[`crate::SCENE_MAX`], and what is negative in
     /// sRGB primaries counts as 0.
     #[must_use]
     pub fn develop(&self, rgb: [f64; 3]) -> [f64; 3] {
@@ -115,7 +111,7 @@ impl Reference {
     /// Scene-linear RGB to display-linear RGB, not clipped. Hard inputs as in [`Reference::develop`].
     #[must_use]
     pub fn develop_linear(&self, rgb: [f64; 3]) -> [f64; 3] {
-        self.develop_exposure(self.exposure.expose(self.scene(rgb)))
+        self.develop_exposure(self.exposure.expose(self.scene.clean(rgb)))
     }
 
     /// Exposure of the three layers (not its logarithm; matching vector included) to display-linear RGB: for light whose
@@ -153,7 +149,7 @@ impl Reference {
     /// Every value on the way.
     #[must_use]
     pub fn stages(&self, rgb: [f64; 3]) -> Stages {
-        let scene = self.scene(rgb);
+        let scene = self.scene.clean(rgb);
         let exposure = self.exposure.expose(scene).map(LogExposure::of);
         let amounts = self.camera_amounts(exposure);
         let print = self.print.as_ref().map(|print| {
@@ -199,7 +195,7 @@ impl Reference {
         self.print.as_ref().map(|print| print.curves.as_ref())
     }
 
-    /// The calibrated lights of the printer.
+    /// The lights of the printer: calibrated, and moved by the points.
     #[must_use]
     pub fn printer_lights(&self) -> Option<PrinterLights> {
         self.print.as_ref().map(|print| print.lights)
@@ -238,16 +234,11 @@ impl Reference {
     }
 
     pub(crate) fn to_srgb(&self) -> &Matrix3<f64> {
-        &self.to_srgb
+        self.scene.to_srgb()
     }
 
     pub(crate) fn rgb_from_xyz(&self) -> &Matrix3<f64> {
         self.projection.rgb_from_xyz()
-    }
-
-    fn scene(&self, rgb: [f64; 3]) -> [f64; 3] {
-        let finite = rgb.map(|v| if v.is_nan() { 0.0 } else { v.clamp(-SCENE_MAX, SCENE_MAX) });
-        (self.to_srgb * Vector3::from(finite)).data.0[0].map(|v| v.clamp(0.0, SCENE_MAX))
     }
 
     pub(crate) fn camera_amounts(&self, exposure: PerLayer<LogExposure>) -> PerLayer<DyeAmount> {
@@ -264,33 +255,16 @@ impl PrintStep {
         mid_grey: PerLayer<LogExposure>,
         projection: &Projection,
     ) -> Result<Self, Error> {
-        let target = print_target(process.aim, print, curves.as_ref(), projection)?;
+        let density = EquivalentNeutralDensity::new(process.neutral_density)?;
+        let target = print_target(process.aim, density, print, curves.as_ref(), projection)?;
         let grey = camera.as_ref().zip_map(mid_grey, AmountCurve::amount);
         let duplication = Duplication::new(negative, print, process.printer())?;
-        let lights = duplication.calibrate(grey, target)?;
+        let lights = duplication.calibrate_by(process.calibration, grey, target)?;
+        let lights = lights.offset(PerLayer::from(process.points));
         Ok(Self { duplication: duplication.lit(lights), lights, target, curves })
     }
 
     fn amounts(&self, exposure: PerLayer<LogExposure>) -> PerLayer<DyeAmount> {
         self.curves.as_ref().zip_map(exposure, AmountCurve::amount)
-    }
-}
-
-/// Whether the films fit together.
-fn check(film: &Stock, print: Option<&Stock>) -> Result<(), Error> {
-    let camera = film.id();
-    let refuse = |sentence: String| Err(Kind::Contradiction(sentence).into());
-    match (film.kind(), print.map(|p| (p.kind(), p.id()))) {
-        (StockKind::Print, _) => Err(Error::print_film_in_camera(camera)),
-        (StockKind::Negative, None) => {
-            refuse(format!("{camera} is a negative, expected a print film to see it on, such as kodak-2383"))
-        }
-        (StockKind::Reversal, Some((_, print))) => refuse(format!(
-            "{camera} is a reversal film and is shown as it is, expected no print film instead of {print}"
-        )),
-        (StockKind::Negative, Some((StockKind::Negative | StockKind::Reversal, print))) => {
-            refuse(format!("{print} is a camera film, expected a print film, such as kodak-2383"))
-        }
-        _ => Ok(()),
     }
 }

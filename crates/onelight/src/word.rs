@@ -2,9 +2,10 @@
 
 use onelight_film::{DyeModel, Matching, Tail};
 use onelight_lut::Storage;
-use onelight_printing::{Aim, HeatGlass, Infrared, Projector};
+use onelight_printing::{Aim, HeatGlass, Infrared, PrinterLight, Projector, Wratten};
 use onelight_spectra::{Reconstruction, RgbSpace, TransferCurve};
 
+use crate::approach::Approach;
 use crate::error::{Error, Kind};
 use crate::stocks::{cut, nearest};
 use crate::structured::{Entries, TableCoding};
@@ -80,12 +81,19 @@ impl WorkingSpace {
 }
 
 words! {
+    Approach, "approach":
+        Approach::Second = "second" "the simulation: spectrum, dye, print, projection",
+        Approach::First = "first" "the talk's first: three wavelengths and tone curves",
+        Approach::Reinhard = "reinhard" "no film: x / (1 + x) for each channel",
+        Approach::ReinhardLuminance = "reinhard-luminance" "no film: the same of luminance",
+        Approach::Clip = "clip" "no film: what does not fit is cut off";
     Aim, "aim":
         Aim::Neutral = "neutral" "18 % grey becomes exactly neutral, display-linear 10^-0.7",
         Aim::Sheet = "sheet" "the aim densities of the print's sheet; a reversal film's own exposure";
     DyeModel, "dyes":
         DyeModel::Wedge = "wedge" "amounts that give the sheet's densities together",
-        DyeModel::Literal = "literal" "each density is its own dye's amount, as the talk reads";
+        DyeModel::Literal = "literal" "each density is its own dye's amount, as the talk reads",
+        DyeModel::Constants = "constants" "the talk's formula with a matching constant for each dye of a negative";
     Matching, "matching":
         Matching::Grey = "grey" "18 % grey under 6500 K lands on the mid grey of the curves",
         Matching::Absolute = "absolute" "the sheet's own units decide, casts included";
@@ -94,6 +102,14 @@ words! {
         Reconstruction::PseudoInverse = "pseudo-inverse" "smoothest with negative lobes, exact",
         Reconstruction::BoxesBalanced = "boxes-balanced" "three boxes, exact",
         Reconstruction::BoxesRaw = "boxes-raw" "three boxes, colours not balanced";
+    PrinterLight, "light":
+        PrinterLight::Separations = "separations" "three beams behind Wratten 70, 99 and 98",
+        PrinterLight::White = "white" "one white beam, balanced for each layer by itself";
+    Wratten, "filters":
+        Wratten::No70 = "70" "red separation",
+        Wratten::No99 = "99" "green separation",
+        Wratten::No98 = "98" "blue separation",
+        Wratten::No2B = "2b" "absorbs ultraviolet";
     Infrared, "infrared":
         Infrared::On = "on" "the printer's light counts to 1000 nm",
         Infrared::Off = "off" "cut at 780 nm";
@@ -107,7 +123,8 @@ words! {
     Projector, "projector":
         Projector::Display = "display" "6500 K",
         Projector::Theatre = "theatre" "5500 K, the eye adapted to it",
-        Projector::TheatreUnadapted = "theatre-unadapted" "5500 K beside a 6500 K display";
+        Projector::TheatreUnadapted = "theatre-unadapted" "5500 K beside a 6500 K display",
+        Projector::Xenon = "xenon" "a cinema's xenon lamp, the eye adapted to it";
     Entries, "entries":
         Entries::Sampled = "sampled" "the film's result at each node",
         Entries::Fitted = "fitted" "moved so that what is read between nodes comes nearest to the film";
@@ -162,6 +179,9 @@ mod tests {
 
     #[test]
     fn words_go_there_and_back() {
+        complete::<Approach>();
+        complete::<PrinterLight>();
+        complete::<Wratten>();
         complete::<Aim>();
         complete::<DyeModel>();
         complete::<Matching>();

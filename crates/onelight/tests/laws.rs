@@ -2,7 +2,9 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
 
 use onelight::film::{AmountCurve, DyeAmount, LogExposure, PerLayer};
-use onelight::printing::{Duplication, NEUTRAL_DENSITY, Printer, Projection, print_mid_grey, print_target};
+use onelight::printing::{
+    Duplication, EquivalentNeutralDensity, NEUTRAL_DENSITY, Printer, Projection, print_mid_grey, print_target,
+};
 use onelight::spectra::{RgbSpace, SpectralShape};
 use onelight::{
     Aim, DyeModel, HeatGlass, Infrared, Matching, Process, Projector, Reference, StockKind, Tail, WorkingSpace, stock,
@@ -132,7 +134,8 @@ fn bench(printer: Printer) -> Bench {
     Bench {
         duplication: Duplication::new(&negative, &print, printer).unwrap(),
         grey: camera.as_ref().zip_map(mid_grey, AmountCurve::amount),
-        target: print_target(Aim::Neutral, &print, paper.as_ref(), &projection).unwrap(),
+        target: print_target(Aim::Neutral, EquivalentNeutralDensity::default(), &print, paper.as_ref(), &projection)
+            .unwrap(),
     }
 }
 
@@ -155,7 +158,7 @@ fn iteration_converges_to_the_solution() {
 
 #[test]
 fn infrared_matters_only_with_a_held_tail() {
-    let printer = |infrared, glass, red_tail| Printer { infrared, glass, red_tail };
+    let printer = |infrared, glass, red_tail| Printer { infrared, glass, red_tail, ..Printer::default() };
     let solved = |p: Printer| {
         let Bench { duplication, grey, target } = bench(p);
         duplication.calibrate(grey, target)

@@ -10,13 +10,44 @@ pub enum Aim {
     /// What the sheet says: the print's published aim densities, a reversal film's own exposure. Grey is then not perfectly
     /// grey (C* 1.4 on 2383) and about a stop darker than neutral.
     Sheet,
-    /// An 18 % grey card is exactly neutral, at an equivalent neutral density of 0.7: display-linear 0.1995. Darker and
-    /// lighter greys keep the tint that the film gives them.
+    /// An 18 % grey card is exactly neutral, at an [`EquivalentNeutralDensity`]. Darker and lighter greys keep the tint that
+    /// the film gives them.
     #[default]
     Neutral,
 }
 
-/// Equivalent neutral density of a grey card in neutral aim (\[Gotanda2010\]).
+/// The density of the neutral filter that a grey card on the screen looks like, 0.05 to 3. The default is the talk's 0.7
+/// (\[Gotanda2010\]): display-linear 0.1995, nearly a grey card itself. Higher is a darker print.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+pub struct EquivalentNeutralDensity(f64);
+
+impl EquivalentNeutralDensity {
+    /// A density from 0.05 to 3.
+    ///
+    /// # Errors
+    /// If it is another.
+    pub fn new(density: f64) -> Result<Self, Error> {
+        if (0.05..=3.0).contains(&density) {
+            Ok(Self(density))
+        } else {
+            Err(Kind::EndDensity { found: density }.into())
+        }
+    }
+
+    /// The number.
+    #[must_use]
+    pub fn value(self) -> f64 {
+        self.0
+    }
+}
+
+impl Default for EquivalentNeutralDensity {
+    fn default() -> Self {
+        Self(NEUTRAL_DENSITY)
+    }
+}
+
+/// Equivalent neutral density of a grey card in neutral aim unless another is named (\[Gotanda2010\]).
 pub const NEUTRAL_DENSITY: f64 = 0.7;
 
 /// The exposures at which a print film's curves reach its aim densities: where its neutral lies.
@@ -39,28 +70,30 @@ pub fn print_mid_grey(print: &Stock) -> Result<PerLayer<LogExposure>, Error> {
     })
 }
 
-/// The exposures that a grey card must give a print film whose layers make dye by `curves`.
+/// The exposures that a grey card must give a print film whose layers make dye by `curves`; `density` is that of neutral aim.
 ///
 /// # Errors
 /// If the aim cannot be reached.
 pub fn print_target(
     aim: Aim,
+    density: EquivalentNeutralDensity,
     print: &Stock,
     curves: PerLayer<&AmountCurve>,
     projection: &Projection,
 ) -> Result<PerLayer<LogExposure>, Error> {
     match aim {
         Aim::Sheet => print_mid_grey(print),
-        Aim::Neutral => exposures(print.id(), curves, projection.neutral_amounts(NEUTRAL_DENSITY, print.id())?),
+        Aim::Neutral => exposures(print.id(), curves, projection.neutral_amounts(density.0, print.id())?),
     }
 }
 
-/// The exposures that a grey card must give a reversal film; `own` are those of its sheet.
+/// The exposures that a grey card must give a reversal film; `own` are those of its sheet, `density` that of neutral aim.
 ///
 /// # Errors
 /// If the film is no reversal film, or the aim cannot be reached.
 pub fn reversal_target(
     aim: Aim,
+    density: EquivalentNeutralDensity,
     film: &Stock,
     own: PerLayer<LogExposure>,
     curves: PerLayer<&AmountCurve>,
@@ -69,7 +102,7 @@ pub fn reversal_target(
     expect_kind(film, StockKind::Reversal)?;
     match aim {
         Aim::Sheet => Ok(own),
-        Aim::Neutral => exposures(film.id(), curves, projection.neutral_amounts(NEUTRAL_DENSITY, film.id())?),
+        Aim::Neutral => exposures(film.id(), curves, projection.neutral_amounts(density.0, film.id())?),
     }
 }
 

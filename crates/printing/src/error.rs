@@ -14,6 +14,7 @@ pub(crate) enum Kind {
     NegativeLight { negative: String, print: String, lights: PerLayer<f64> },
     Dependent { negative: String, print: String },
     Unreachable { stock: String, layer: &'static str, found: String, expected: String },
+    EndDensity { found: f64 },
     NoAmounts { stock: String, density: f64 },
     Grid { found: SpectralShape },
     Misplaced { stock: String, found: &'static str, expected: &'static str },
@@ -71,6 +72,9 @@ impl fmt::Display for Error {
             }
             Kind::Unreachable { stock, layer, found, expected } => {
                 write!(f, "{stock}: the aim needs {found} in the {layer} layer, expected {expected}")
+            }
+            Kind::EndDensity { found } => {
+                write!(f, "equivalent neutral density of a grey card: found {found}, expected 0.05 to 3")
             }
             Kind::NoAmounts { stock, density } => {
                 write!(f, "{stock}: no amounts of its dyes make a neutral of density {density}")

@@ -7,7 +7,9 @@
 //!
 //! ```
 //! use onelight_film::{DyeModel, PerLayer, SheetText, Stock};
-//! use onelight_printing::{Aim, Duplication, Printer, Projection, Projector, print_mid_grey, print_target};
+//! use onelight_printing::{
+//!     Aim, Duplication, EquivalentNeutralDensity, Printer, Projection, Projector, print_mid_grey, print_target,
+//! };
 //! use onelight_spectra::{RgbSpace, SpectralShape};
 //! # fn read(id: &str) -> Result<Stock, Box<dyn std::error::Error>> {
 //! #     let f = onelight_stocks::find(id).ok_or("no such stock")?;
@@ -21,7 +23,7 @@
 //!
 //! // Set the printer's lights so that a grey card comes out grey.
 //! let grey = camera.as_ref().map(|curve| curve.amount(negative.mid_grey().unwrap_or_default()));
-//! let target = print_target(Aim::Neutral, &print, paper.as_ref(), &projection)?;
+//! let target = print_target(Aim::Neutral, EquivalentNeutralDensity::default(), &print, paper.as_ref(), &projection)?;
 //! let printer = Duplication::new(&negative, &print, Printer::default())?;
 //! let printer = printer.lit(printer.calibrate(grey, target)?);
 //! let dye = paper.as_ref().zip_map(printer.expose(grey), |curve, h| curve.amount(h));
@@ -40,9 +42,9 @@ mod filter;
 mod printer;
 mod projection;
 
-pub use aim::{Aim, NEUTRAL_DENSITY, print_mid_grey, print_target, reversal_target};
-pub use duplication::{Duplication, LitDuplication, SpectralRow};
+pub use aim::{Aim, EquivalentNeutralDensity, NEUTRAL_DENSITY, print_mid_grey, print_target, reversal_target};
+pub use duplication::{Calibration, Duplication, LitDuplication, SpectralRow};
 pub use error::Error;
 pub use filter::{HeatGlass, Wratten};
-pub use printer::{Infrared, Printer, PrinterLights};
+pub use printer::{Filters, Infrared, POINT_LOG_EXPOSURE, Printer, PrinterLight, PrinterLights};
 pub use projection::{Projection, Projector};

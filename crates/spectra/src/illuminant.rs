@@ -47,6 +47,23 @@ fn read(which: Illuminant, shape: SpectralShape) -> Result<SpectralDistribution<
     linear(&nodes, shape, Outside::Held)
 }
 
+/// Relative power of a cinema's xenon projector, 1.0 at 560 nm: a Kinoton 75P as measured, about 6340 K; 2 nm table, linear
+/// between its rows, end values held beyond 380..780 nm.
+#[must_use]
+#[expect(clippy::expect_used, reason = "the table is compiled in and a test reads it")]
+pub fn xenon_lamp(shape: SpectralShape) -> SpectralDistribution<Power> {
+    read_xenon(shape).expect("the built-in table is valid")
+}
+
+fn read_xenon(shape: SpectralShape) -> Result<SpectralDistribution<Power>, Error> {
+    let text = include_str!("../data/xenon_projector_kinoton_75p.csv");
+    let mut nodes =
+        NumberTable::parse("xenon_projector_kinoton_75p.csv", text)?.nodes("wavelength_nm", "relative_power")?;
+    let reference = nodes.at(560.0).unwrap_or(1.0);
+    nodes.y.iter_mut().for_each(|v| *v /= reference);
+    linear(&nodes, shape, Outside::Held)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -62,6 +79,16 @@ mod tests {
             assert_relative_eq!(xyz.x / xyz.sum(), x, epsilon = 5e-5);
             assert_relative_eq!(xyz.y / xyz.sum(), y, epsilon = 5e-5);
         }
+    }
+
+    #[test]
+    fn xenon_is_a_little_warmer_than_daylight() {
+        let lamp = read_xenon(SpectralShape::VISIBLE).unwrap();
+        let xyz = Observer::cie_1931().xyz(&lamp);
+        // Computed from the same table elsewhere.
+        assert_relative_eq!(xyz.x / xyz.sum(), 0.3153, epsilon = 1e-4);
+        assert_relative_eq!(xyz.y / xyz.sum(), 0.3329, epsilon = 1e-4);
+        assert_relative_eq!(lamp.at(560.0).unwrap(), 1.0);
     }
 
     #[test]

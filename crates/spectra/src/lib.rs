@@ -47,7 +47,7 @@ pub use color_checker::{Patch, color_checker};
 pub use difference::{DisplayDifference, ciede2000};
 pub use distribution::{Quantity, SpectralDistribution, quantity};
 pub use error::Error;
-pub use illuminant::{Illuminant, illuminant};
+pub use illuminant::{Illuminant, illuminant, xenon_lamp};
 pub use nalgebra;
 pub use observer::Observer;
 pub use pchip::Pchip;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use onelight::lut::{Certificate, Deviation, Law, Search, Storage, deviation};
-use onelight::{DirectSettings, Entries, Nodes, Process, Reference, TableCoding, TransferCurve, Word, WorkingSpace};
+use onelight::{DirectSettings, Entries, Look, Nodes, Process, TableCoding, TransferCurve, Word, WorkingSpace};
 use serde_json::json;
 
 use crate::certificate::{Measure, in_words, to_six_stops};
@@ -74,7 +74,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         notes.push(format!("Bevy's tables hold linear light: not coded by {}", process.output_coding.word()));
         process.output_coding = TransferCurve::Linear;
     }
-    let film = clock.time("compile", || process.compile())?;
+    let film = clock.time("compile", || process.look())?;
     let scene = clock.time("scene", || scene_colours::read(&arguments.scene, &process))?;
     let recipe = clock.time("choose", || recipe(arguments, &film, &process))?;
     let formats = formats(arguments, recipe.form)?;
@@ -145,7 +145,7 @@ fn nodes(text: &str) -> Result<Nodes, String> {
     }
 }
 
-fn recipe(arguments: &Arguments, film: &Reference, process: &Process) -> Result<Recipe> {
+fn recipe(arguments: &Arguments, film: &Look, process: &Process) -> Result<Recipe> {
     let usual = Recipe::usual(arguments.form);
     if arguments.nodes.is_some() && arguments.form != Form::Direct {
         bail!("--nodes: the {} form has no exponentials, expected --form direct with it", arguments.form.word());
@@ -200,7 +200,7 @@ struct Measured {
 
 impl Measured {
     fn new(
-        film: &Reference,
+        film: &Look,
         process: &Process,
         compiled: &Compiled,
         formats: &[Format],
@@ -295,7 +295,7 @@ fn comments(process: &Process, compiled: &Compiled, measured: Option<&Measured>)
     ]
 }
 
-fn on_scene(film: &Reference, written: &Applied, colours: &[[f64; 3]]) -> Result<Deviation> {
+fn on_scene(film: &Look, written: &Applied, colours: &[[f64; 3]]) -> Result<Deviation> {
     let difference = film.difference()?;
     let table = |rgb: [f64; 3]| written(rgb.map(|v| v as f32)).map(|v| film.coding().decode(f64::from(v)));
     let between = |a: &[f64; 3], b: &[f64; 3]| difference.between(*a, *b);

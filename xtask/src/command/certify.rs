@@ -80,10 +80,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     // The best form of a single process is described in full.
     let mut best = (f64::INFINITY, String::new());
     for process in &processes {
-        let film = clock.time("compile", || process.compile())?;
+        let film = clock.time("compile", || process.look())?;
         let measure = Measure::new(&film, process)?;
         let samples = clock.time("film", || measure.samples(&law, WorkingSpace::Srgb))?;
-        for (form, recipe) in forms() {
+        // Only a film has the curves that the other forms are made of.
+        let fits = |recipe: &Recipe| recipe.form == Form::Plain || film.film().is_ok();
+        for (form, recipe) in forms().into_iter().filter(|(_, recipe)| fits(recipe)) {
             let compiled = clock.time("bake", || Compiled::new(&film, process, &recipe, None))?;
             let found =
                 clock.time("certify", || measure.certify(&samples, |rgb| compiled.apply(rgb), Search::Ascent))?;
@@ -108,7 +110,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
 }
 
 fn buffer_steps(arguments: &Arguments) -> Result<Report> {
-    let film = arguments.look.process()?.compile()?;
+    let film = arguments.look.process()?.look()?;
     let mut text =
         "largest step (CIEDE2000) on a grey ramp from -8 to +4 stops, through the buffer and the film\n".to_owned();
     let mut json = serde_json::Map::new();

@@ -2,9 +2,11 @@
 
 pub(crate) mod bake;
 pub(crate) mod certify;
+pub(crate) mod compare;
 pub(crate) mod develop;
 pub(crate) mod fixtures;
 pub(crate) mod gpu_bench;
+pub(crate) mod light;
 pub(crate) mod report;
 pub(crate) mod stocks;
 pub(crate) mod tidy;

@@ -7,7 +7,7 @@ use onelight::film::{ExposureAxis, Origin, PerLayer, SpectralSensitivity};
 use onelight::{Process, Stock, StockKind, stock, stock_ids};
 use serde_json::{Value, json};
 
-use crate::{Report, folders, plot};
+use crate::{Report, folders, likeness, plot};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -17,6 +17,9 @@ pub(crate) struct Arguments {
     /// Read every stock and compile a process with it; the first fault is an error
     #[arg(long)]
     check: bool,
+    /// Say of every camera film what is reproduced, and how nearly (docs/stocks.md says what the columns are)
+    #[arg(long, conflicts_with_all = ["id", "check"])]
+    likeness: bool,
     /// Folder for the plot of one stock [default: target/onelight/stocks]
     #[arg(long, value_name = "DIR", requires = "id")]
     out: Option<PathBuf>,
@@ -29,6 +32,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let (text, json) = match &arguments.id {
         Some(id) => one(id, arguments.out.as_deref())?,
         None if arguments.check => check()?,
+        None if arguments.likeness => {
+            let found = likeness::all()?;
+            (likeness::table(&found), serde_json::to_value(found)?)
+        }
         None => all()?,
     };
     Ok(Report { text, json, as_json: arguments.json })

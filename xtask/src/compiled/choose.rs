@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result, bail};
 use onelight::lut::{Samples, Search, Storage};
-use onelight::{Process, Reference, TableCoding};
+use onelight::{Look, Process, TableCoding};
 
 use super::{Compiled, Form, Recipe};
 use crate::certificate::Measure;
@@ -18,7 +18,7 @@ const STORED: [(TableCoding, [Storage; 2]); 2] =
 ///
 /// The structured form is tried in all sizes and stores. A plain table of the same accuracy is always larger: it needs more
 /// nodes, and its range ends.
-pub(crate) fn smallest_under(film: &Reference, process: &Process, limit: f64) -> Result<Recipe> {
+pub(crate) fn smallest_under(film: &Look, process: &Process, limit: f64) -> Result<Recipe> {
     let measure = Measure::new(film, process)?;
     let samples: Samples = measure.samples(&onelight::lut::Law::default(), onelight::WorkingSpace::Srgb)?;
     let progress = bar("choosing", SIZES.len() as u64);

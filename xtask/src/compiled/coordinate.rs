@@ -4,7 +4,7 @@ use anyhow::Result;
 use onelight::lut::Lut3d;
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Chromaticity, RgbSpace, SceneCurve};
-use onelight::{Process, Reference};
+use onelight::{Look, Process};
 
 /// What the coordinates of a table stand for.
 #[derive(Debug, Clone)]
@@ -66,7 +66,7 @@ impl Coordinate {
     }
 
     /// The table of a film in this coding.
-    pub(crate) fn bake(&self, film: &Reference, size: usize) -> Result<Lut3d> {
+    pub(crate) fn bake(&self, film: &Look, size: usize) -> Result<Lut3d> {
         Ok(film.bake(size, |t| self.decode(t))?)
     }
 

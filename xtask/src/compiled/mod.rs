@@ -11,7 +11,7 @@ use onelight::lut::{
     Shaper, Storage, StructuredLut, fit,
 };
 use onelight::spectra::SceneCurve;
-use onelight::{DirectSettings, Entries, Nodes, Process, Reference, StructuredSettings, TableCoding};
+use onelight::{DirectSettings, Entries, Look, Nodes, Process, StructuredSettings, TableCoding};
 use rayon::prelude::*;
 
 pub(crate) use choose::smallest_under;
@@ -118,7 +118,7 @@ const BLOCK: usize = 4096;
 const FIT_SAMPLES_PER_NODE: usize = 4;
 
 /// A plain table moved towards the film between its nodes, over the range of its shaper.
-fn fitted_plain(film: &Reference, shaper: &Shaper, table: &Lut3d) -> Result<Lut3d> {
+fn fitted_plain(film: &Look, shaper: &Shaper, table: &Lut3d) -> Result<Lut3d> {
     let stops = (shaper.max() / SceneSampler::MID_GREY).log2();
     let count = FIT_SAMPLES_PER_NODE * table.entries().len();
     let colours: Vec<[f64; 3]> = SceneSampler::new(-10.0f64.min(stops)..=stops)?.take(count).collect();
@@ -149,12 +149,7 @@ pub(crate) enum Compiled {
 
 impl Compiled {
     /// Bakes a look; `scene` holds colours that a plain table's range is fitted to instead of the usual ones.
-    pub(crate) fn new(
-        film: &Reference,
-        process: &Process,
-        recipe: &Recipe,
-        scene: Option<&[[f64; 3]]>,
-    ) -> Result<Self> {
+    pub(crate) fn new(film: &Look, process: &Process, recipe: &Recipe, scene: Option<&[[f64; 3]]>) -> Result<Self> {
         match recipe.form {
             Form::Plain => {
                 if let Some(coordinate) = recipe.shaper.coordinate(process)? {
@@ -181,12 +176,12 @@ impl Compiled {
                     entries: recipe.entries,
                     coding: recipe.coding,
                 };
-                let lut = film.structured(&settings)?;
+                let lut = film.film()?.structured(&settings)?;
                 let table = recipe.storage.stored(&lut.parts().table)?;
                 Ok(Self::Structured(Box::new(lut.with_table(table))))
             }
             Form::Direct => {
-                let direct = film.direct(&DirectSettings { nodes: recipe.nodes })?;
+                let direct = film.film()?.direct(&DirectSettings { nodes: recipe.nodes })?;
                 Ok(Self::Direct(Box::new(direct)))
             }
         }

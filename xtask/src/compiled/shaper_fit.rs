@@ -3,7 +3,7 @@
 use anyhow::Result;
 use onelight::lut::{DirectForm, Interpolation, PlainLut, SceneSampler, Shaper, bake_form};
 use onelight::spectra::{DisplayDifference, ciede2000};
-use onelight::{DirectSettings, Nodes, Reference};
+use onelight::{DirectSettings, Look, Nodes};
 use rayon::prelude::*;
 
 /// What a shaper is fitted to.
@@ -34,7 +34,7 @@ fn corners(peak: f64) -> impl Iterator<Item = [f64; 3]> {
 }
 
 /// The shaper whose table comes nearest to the film.
-pub(crate) fn fitted_to(film: &Reference, target: &Fitted) -> Result<Shaper> {
+pub(crate) fn fitted_to(film: &Look, target: &Fitted) -> Result<Shaper> {
     let (colours, ranges): (Vec<[f64; 3]>, Vec<f64>) = match target {
         Fitted::Look { stops } => {
             let ranges = stops.map_or(RANGES.to_vec(), |stops| vec![stops]);
@@ -91,22 +91,26 @@ fn golden(f: impl Fn(f64) -> Result<f64>) -> Result<(f64, f64)> {
 
 /// Colours and what the film makes of them.
 struct Trial<'a> {
-    film: &'a Reference,
-    /// Stands for the film: what it misses is small beside what the tables do.
-    baking: DirectForm,
+    film: &'a Look,
+    /// Stands for a film: what it misses is small beside what the tables do.
+    baking: Option<DirectForm>,
     difference: DisplayDifference,
     /// Scene-linear, and what the film makes of it in CIELAB.
     pairs: Vec<([f32; 3], [f64; 3])>,
 }
 
 impl<'a> Trial<'a> {
-    fn new(film: &'a Reference, colours: &[[f64; 3]]) -> Result<Self> {
-        let baking = film.direct(&DirectSettings { nodes: Nodes::Grid { step_nm: 10 } })?;
+    fn new(film: &'a Look, colours: &[[f64; 3]]) -> Result<Self> {
+        let baking = match film {
+            Look::Film(film) => Some(film.direct(&DirectSettings { nodes: Nodes::Grid { step_nm: 10 } })?),
+            Look::First(_) | Look::Baseline(_) => None,
+        };
         let difference = film.difference()?;
-        let pairs = colours.par_iter().map(|&rgb| {
-            let linear = baking.apply(rgb.map(|v| v as f32)).map(|v| film.coding().decode(f64::from(v)));
-            (rgb.map(|v| v as f32), difference.lab(linear))
-        });
+        let exact = |rgb: [f64; 3]| match &baking {
+            Some(form) => form.apply(rgb.map(|v| v as f32)).map(|v| film.coding().decode(f64::from(v))),
+            None => film.develop_linear(rgb),
+        };
+        let pairs = colours.par_iter().map(|&rgb| (rgb.map(|v| v as f32), difference.lab(exact(rgb))));
         let pairs = pairs.collect();
         Ok(Self { film, baking, difference, pairs })
     }
@@ -114,7 +118,11 @@ impl<'a> Trial<'a> {
     /// Mean difference of a small table, and a hundredth of the largest: clipped colours are few.
     fn error(&self, exponent: f64, max: f64) -> Result<f64> {
         let shaper = shaper(exponent, max)?;
-        let table = bake_form(TRIAL_SIZE, |t| t.map(|t| shaper.decode(t)), &self.baking)?;
+        let at = |t: [f64; 3]| t.map(|t| shaper.decode(t));
+        let table = match &self.baking {
+            Some(form) => bake_form(TRIAL_SIZE, at, form)?,
+            None => self.film.bake(TRIAL_SIZE, at)?,
+        };
         let lut = PlainLut::new(shaper, table, Interpolation::Tetrahedral);
         let coding = self.film.coding();
         let read = |rgb: [f32; 3]| self.difference.lab(lut.apply(rgb).map(|v| coding.decode(f64::from(v))));

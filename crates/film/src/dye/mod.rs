@@ -1,5 +1,6 @@
 //! Dyes: what a film looks like when it holds given amounts of them.
 
+mod constants;
 mod literal;
 mod set;
 mod wedge;
@@ -10,7 +11,7 @@ use crate::LogExposure;
 use crate::curve::AmountCurve;
 use crate::error::Error;
 use crate::layer::PerLayer;
-use crate::stock::Stock;
+use crate::stock::{Stock, StockKind};
 
 /// How densities of the characteristic curves become amounts of dye.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -19,8 +20,13 @@ pub enum DyeModel {
     /// densities that the sheet's densitometer reads.
     #[default]
     Wedge,
-    /// \[Gotanda2010\] read literally: each layer's density is its own dye's amount. 1 to 4 dE from the wedge in the mean.
+    /// \[Gotanda2010\] read literally: each layer's density is its own dye's amount, and on a negative one matching constant
+    /// scales all three. 1 to 4 dE from the wedge in the mean, up to 8 in sheet aim.
     Literal,
+    /// The talk's formula with what it needs to hold: on a negative amount = c (D - Dmin) / (Dmid - Dmin) with a constant c for
+    /// each dye and Dmid read off the published midscale neutral by the sheet's densitometer. 0.3 to 0.6 dE from the wedge in
+    /// the mean. Prints and reversal films as [`DyeModel::Wedge`].
+    Constants,
 }
 
 impl DyeModel {
@@ -33,6 +39,10 @@ impl DyeModel {
         match self {
             Self::Wedge => wedge::amounts(stock, mid_grey),
             Self::Literal => literal::amounts(stock, mid_grey),
+            Self::Constants => match stock.kind() {
+                StockKind::Negative => constants::amounts(stock),
+                StockKind::Reversal | StockKind::Print => wedge::amounts(stock, mid_grey),
+            },
         }
     }
 }

@@ -1,3 +1,4 @@
+use super::{METERED_LUX_S, MID_GREY};
 use crate::error::{Error, Kind};
 
 /// A real camera: what its settings let through to the film.
@@ -31,6 +32,26 @@ impl Camera {
     #[must_use]
     pub fn focal_plane_exposure(self, luminance: f64) -> f64 {
         LENS_TRANSMISSION * luminance * self.shutter_s / (self.f_number * self.f_number)
+    }
+
+    /// Scene value (0.18 is a properly exposed grey card) of a matte surface that sends back `lux`, its illuminance times its
+    /// reflectance, for a film of this speed: the exposure H over that of a metered mid grey, 8.1 lux s / `exposure_index`.
+    ///
+    /// ```
+    /// use onelight_film::Camera;
+    /// // A meter of K = 12.5 on a grey card: L = K N^2 / (t S), which exposes for mid grey.
+    /// let (t, n, speed) = (1.0 / 60.0, 4.0, 250.0);
+    /// let luminance = 12.5 * n * n / (t * speed);
+    /// let scene = Camera::new(t, n)?.scene_value(std::f64::consts::PI * luminance, speed)?;
+    /// assert!((scene / 0.18 - 1.0).abs() < 0.005);
+    /// # Ok::<(), onelight_film::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If the exposure index is not within 1e-3 to 1e9.
+    pub fn scene_value(self, lux: f64, exposure_index: f64) -> Result<f64, Error> {
+        let mid_grey_lux_s = METERED_LUX_S / EXPOSURE_INDEX.check(exposure_index)?;
+        Ok(MID_GREY * self.focal_plane_exposure(lux / std::f64::consts::PI) / mid_grey_lux_s)
     }
 }
 

@@ -1,6 +1,7 @@
 use nalgebra::{Matrix3, Vector3};
 use onelight_spectra::{Basis, SpectralShape, lux_to_w_per_m2};
 
+use super::{METERED_LUX_S, MID_GREY};
 use crate::curve::{Density, LogExposure};
 use crate::error::Error;
 use crate::layer::PerLayer;
@@ -16,11 +17,6 @@ pub enum Matching {
     /// The sheet's own units: the sensitivity makes the criterion density. Lights other than the sheet's leave a cast.
     Absolute,
 }
-
-/// Scene value of mid grey.
-const MID_GREY: f64 = 0.18;
-/// Exposure in lux s that a metered mid grey gets, times the exposure index.
-const METERED_LUX_S: f64 = 8.1;
 
 /// Scene RGB (sRGB primaries, 6500 K white) to the exposure of each layer: E = K u. Spectrum, sensitivity and matching
 /// vector in one 3x3 matrix, integrated at 1 nm.
@@ -49,6 +45,13 @@ impl ExposureMatrix {
         };
         let matrix = Matrix3::from_diagonal(&Vector3::from(vector.to_array())) * sensors;
         Ok(Self { matrix, matching: vector })
+    }
+
+    /// The same film exposed so many stops more.
+    #[must_use]
+    pub fn overexposed(self, stops: f64) -> Self {
+        let factor = stops.exp2();
+        Self { matrix: self.matrix * factor, matching: self.matching.map(|c| c * factor) }
     }
 
     /// Exposure of each layer for a scene RGB.

@@ -31,14 +31,22 @@ impl<'de> Deserialize<'de> for FormatVersion {
 const MAX_BYTES: usize = 64 * 1024;
 
 /// Every key, for messages; a test holds it against the struct.
-const KEYS: [&str; 14] = [
+const KEYS: [&str; 23] = [
     "version",
+    "approach",
     "camera",
     "print",
     "aim",
+    "neutral_density",
+    "overexposure",
     "dyes",
     "matching",
     "reconstruction",
+    "light",
+    "filters",
+    "beam_density",
+    "calibration",
+    "points",
     "infrared",
     "glass",
     "red_tail",
@@ -46,7 +54,10 @@ const KEYS: [&str; 14] = [
     "input_space",
     "output_space",
     "output_coding",
+    "first",
 ];
+/// The keys of the table `[first]`.
+const FIRST_KEYS: [&str; 5] = ["contrast", "brightness", "temperature", "saturation", "curve"];
 
 impl Process {
     /// Reads a description; `file` is the name that messages carry. Keys left out have their default, `print` the one
@@ -96,7 +107,7 @@ impl Process {
 
 fn unknown_key(found: &str) -> String {
     let key = cut(found);
-    match nearest(found, KEYS.into_iter()) {
+    match nearest(found, KEYS.into_iter().chain(FIRST_KEYS)) {
         Some(meant) => format!("unknown key {key:?}, did you mean {meant:?}?"),
         None => format!("unknown key {key:?}, expected one of {}", KEYS.join(", ")),
     }
@@ -105,7 +116,8 @@ fn unknown_key(found: &str) -> String {
 /// What the line `written`, whose value is of the wrong type, should have held.
 fn wrong_type(table: &toml::Table, written: &str) -> Option<String> {
     let key = written.split(['=', '.']).next()?.trim_matches(|c: char| c.is_whitespace() || "\"'[]".contains(c));
-    let found = match table.get(key)? {
+    let first = table.get("first").and_then(toml::Value::as_table);
+    let found = match table.get(key).or_else(|| first?.get(key))? {
         toml::Value::String(_) => "a word in quotes",
         toml::Value::Integer(_) | toml::Value::Float(_) => "a number",
         toml::Value::Boolean(_) => "true or false",
@@ -113,8 +125,53 @@ fn wrong_type(table: &toml::Table, written: &str) -> Option<String> {
         toml::Value::Array(_) => "a list",
         toml::Value::Table(_) => "a table",
     };
-    let expected = if key == "version" { "1" } else { "a word in quotes" };
+    let expected = match key {
+        "version" => "1",
+        "neutral_density" | "overexposure" | "contrast" | "brightness" | "temperature" | "saturation" => "a number",
+        "points" | "beam_density" => "three numbers, red, green, blue",
+        "filters" => "a list of words in quotes",
+        "curve" => "a list of pairs: stops about mid grey, display-coded value",
+        "first" => "a table",
+        _ => "a word in quotes",
+    };
     Some(format!("{key}: found {found}, expected {expected}"))
+}
+
+/// `filters`: a list of numbers as words.
+pub(super) mod filters {
+    use onelight_printing::{Filters, Wratten};
+    use serde::{Deserialize, Deserializer, Serializer, de};
+
+    use crate::word::Word;
+
+    pub(crate) fn serialize<S: Serializer>(filters: &Filters, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(filters.iter().map(Word::word))
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Filters, D::Error> {
+        let words = Vec::<String>::deserialize(deserializer)?;
+        let filters: Result<Vec<Wratten>, _> = words.iter().map(|word| Wratten::parse(word)).collect();
+        Ok(Filters::of(&filters.map_err(de::Error::custom)?))
+    }
+}
+
+/// `calibration`: `"exact"`, or a number of iterations.
+pub(super) mod calibration {
+    use onelight_printing::Calibration;
+    use serde::{Deserialize, Deserializer, Serializer, de};
+
+    use super::Process;
+
+    pub(crate) fn serialize<S: Serializer>(calibration: &Calibration, serializer: S) -> Result<S::Ok, S::Error> {
+        match calibration {
+            Calibration::Exact => serializer.serialize_str("exact"),
+            Calibration::Iterations(count) => serializer.collect_str(count),
+        }
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Calibration, D::Error> {
+        Process::parse_calibration(&String::deserialize(deserializer)?).map_err(de::Error::custom)
+    }
 }
 
 /// `print`: an id, or `"none"`.
@@ -152,6 +209,27 @@ mod tests {
     }
 
     #[test]
+    fn switches_go_there_and_back() {
+        use onelight_printing::{Calibration, Filters, Wratten};
+        let look = Process {
+            filters: Filters::of(&[Wratten::No99, Wratten::No70]),
+            calibration: Calibration::Iterations(2),
+            points: [1.0, -2.5, 0.0],
+            first: crate::FirstControls { curve: vec![[-1.0, 0.3], [0.5, 0.6]], ..Default::default() },
+            ..Process::default()
+        };
+        let text = look.to_toml();
+        assert!(text.contains("filters = [\"70\", \"99\"]") && text.contains("calibration = \"2\""), "{text}");
+        assert_eq!(Process::from_toml("look.toml", &text).unwrap(), look);
+        let short = "version = 1\nneutral_density = 1\n[first]\ncontrast = 2\n";
+        let look = Process::from_toml("look.toml", short).unwrap();
+        assert_eq!((look.neutral_density, look.first.contrast, look.first.saturation), (1.0, 2.0, 1.0));
+        assert!(message("version = 1\ncalibration = \"31\"\n").contains("exact, or 0 to 30"));
+        assert!(message("version = 1\nfilters = [\"71\"]\n").contains("one of 70, 99, 98, 2b"));
+        assert!(message("version = 1\n[first]\ncontrats = 2\n").contains("did you mean \"contrast\""));
+    }
+
+    #[test]
     fn mistakes_are_named() {
         assert_eq!(
             message("version = 1\ncamra = \"kodak-5207\"\n"),
@@ -165,7 +243,7 @@ mod tests {
             "look.toml:2: unknown key \"camera x\", did you mean \"camera\"?"
         );
         let far = message("version = 1\nzzz = 3\n");
-        assert!(far.starts_with("look.toml:2: unknown key \"zzz\", expected one of version, camera,"), "{far}");
+        assert!(far.starts_with("look.toml:2: unknown key \"zzz\", expected one of version, approach,"), "{far}");
         assert!(message(&format!("version = 1\n{} = 3\n", "z".repeat(1000))).len() < 400);
         assert_eq!(
             message("version = 1\nprint = \"NONE\"\n"),
@@ -187,6 +265,10 @@ mod tests {
             ("glass.thick = 3", "glass: found a table, expected a word in quotes"),
             ("[projector]\nlamp = 1", "projector: found a table, expected a word in quotes"),
             ("matching = 2026-01-01", "matching: found a date or time, expected a word in quotes"),
+            ("overexposure = \"1\"", "overexposure: found a word in quotes, expected a number"),
+            ("points = 3", "points: found a number, expected three numbers, red, green, blue"),
+            ("filters = \"70\"", "filters: found a word in quotes, expected a list of words in quotes"),
+            ("first = 3", "first: found a number, expected a table"),
         ] {
             assert_eq!(message(&format!("version = 1\n{line}\n")), format!("look.toml:2: {expected}"));
         }

@@ -3,7 +3,7 @@
 use anyhow::Result;
 use clap::ValueEnum;
 use indicatif::ProgressBar;
-use onelight::{Process, Reference};
+use onelight::{Look, Process};
 use rayon::prelude::*;
 
 use crate::compiled::{self, Compiled, Recipe};
@@ -25,14 +25,14 @@ pub(crate) enum Form {
 /// A film, ready for any number of pictures on any number of threads.
 pub(crate) enum Film {
     /// The film itself.
-    Exact(Box<Reference>),
+    Exact(Box<Look>),
     /// What was baked of it.
     Compiled(Box<Compiled>),
 }
 
 impl Film {
     pub(crate) fn new(process: &Process, form: Form) -> Result<Self> {
-        let film = process.compile()?;
+        let film = process.look()?;
         let form = match form {
             Form::Reference => return Ok(Self::Exact(Box::new(film))),
             Form::Plain => compiled::Form::Plain,

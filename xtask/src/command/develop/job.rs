@@ -12,6 +12,7 @@ use super::bands::{Busy, look_through, pass};
 use super::exposure::{Exposure, Meter};
 use super::film::Film;
 use super::light::{InputPrimaries, Light};
+use crate::exposure::SceneExposure;
 use crate::picture::{
     Band, BandSink, Bits, Chromaticities, Coding, ColourTag, Description, Limits, open, write_exr_bands,
     write_png_bands,
@@ -22,6 +23,8 @@ pub(crate) struct Settings {
     pub(crate) process: Process,
     pub(crate) film: Film,
     pub(crate) exposure: Exposure,
+    /// What camera and frame buffer make of a picture's numbers.
+    pub(crate) scene: SceneExposure,
     /// Transfer curve of what comes in, where it was named.
     pub(crate) input_coding: Option<TransferCurve>,
     pub(crate) input_primaries: InputPrimaries,
@@ -65,7 +68,7 @@ pub(crate) fn develop_picture(
     let mut picture = open(input, &settings.limits)?;
     let description = picture.description().clone();
     let mut notes = description.notes.clone();
-    let light = Light::new(&description, process, settings.input_coding, *input_primaries, &mut notes);
+    let light = Light::new(&description, process, settings.input_coding, *input_primaries, &settings.scene, &mut notes);
     let light = light.with_context(|| input.display().to_string())?;
     let height = description.height as u64;
 

@@ -7,6 +7,7 @@ use onelight::{Process, TransferCurve, Word};
 use rayon::prelude::*;
 
 use super::exposure::{Meter, RowLight};
+use crate::exposure::SceneExposure;
 use crate::picture::{Band, Description, RowMut, Samples, Source};
 use crate::scene_colours;
 
@@ -23,6 +24,8 @@ pub(crate) enum InputPrimaries {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Light {
     coding: TransferCurve,
+    /// What camera and frame buffer make of the numbers.
+    scene: SceneExposure,
     /// From the file's primaries to those of the process; `None` where they are the same.
     to_input: Option<Matrix3<f64>>,
     /// Luminance of the file's primaries.
@@ -36,6 +39,7 @@ impl Light {
         process: &Process,
         coding: Option<TransferCurve>,
         primaries: InputPrimaries,
+        scene: &SceneExposure,
         notes: &mut Vec<String>,
     ) -> Result<Self> {
         let to_input = if picture.primaries.is_some() && primaries == InputPrimaries::OfLook {
@@ -49,15 +53,17 @@ impl Light {
         let to_xyz = process.input_space.space().with_white(Chromaticity::black_body_6500_k()).to_xyz();
         let to_xyz = to_xyz.context("the input space")?;
         let luminance = (to_xyz * to_input.unwrap_or_else(Matrix3::identity)).row(1).transpose();
-        Ok(Self { coding, to_input: to_input.filter(|matrix| *matrix != Matrix3::identity()), luminance })
+        notes.extend(scene.notes.iter().cloned());
+        let scene = scene.clone();
+        Ok(Self { coding, scene, to_input: to_input.filter(|matrix| *matrix != Matrix3::identity()), luminance })
     }
 
-    /// Undoes the transfer curve, and shows the light to the meter.
+    /// Undoes the transfer curve, takes the numbers through camera and buffer, and shows the light to the meter.
     pub(super) fn measure(&self, band: &mut Band, meter: &mut Meter) {
         self.each_row(band, Some(meter), |_| {});
     }
 
-    /// Undoes the transfer curve, converts and exposes; shows the light before that to the meter, if there is one.
+    /// The same, then converts and exposes; shows the light before that to the meter, if there is one.
     pub(super) fn expose(&self, band: &mut Band, ev: f64, meter: Option<&mut Meter>) {
         let scale = ev.exp2();
         match self.to_input {
@@ -78,6 +84,9 @@ impl Light {
             if self.coding != TransferCurve::Linear {
                 let decode = |v: f32| self.coding.decode(f64::from(v)) as f32;
                 row.rgb.iter_mut().for_each(|rgb| *rgb = rgb.map(decode));
+            }
+            if !self.scene.changes_nothing() {
+                row.rgb.iter_mut().for_each(|rgb| *rgb = self.scene.apply(*rgb));
             }
             let seen = meter.is_some().then(|| self.look_at(&row));
             row.rgb.iter_mut().for_each(&change);

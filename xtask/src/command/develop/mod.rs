@@ -16,6 +16,7 @@ use self::exposure::Exposure;
 use self::film::{Film, Form};
 use self::job::{Developed, Settings, Target, develop_picture};
 use self::light::InputPrimaries;
+use crate::exposure::ExposureArguments;
 use crate::look::{LookArguments, words};
 use crate::picture::{Bits, Limits};
 use crate::progress::{Clock, bar};
@@ -31,6 +32,8 @@ pub(crate) struct Arguments {
     output: PathBuf,
     #[command(flatten)]
     look: LookArguments,
+    #[command(flatten)]
+    camera: ExposureArguments,
     /// Exposure in stops, or auto: the log average of the picture comes to 0.18
     #[arg(long, default_value = "0", value_name = "STOPS|auto", allow_hyphen_values = true)]
     ev: Exposure,
@@ -66,10 +69,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         notes.push(format!("an EXR holds linear light: not coded by {}", process.output_coding.word()));
         process.output_coding = TransferCurve::Linear;
     }
+    let scene = arguments.camera.resolve(&process)?;
+    if scene.is_metered() && arguments.ev == Exposure::Auto {
+        bail!("--ev auto exposes by the picture: the camera's settings change nothing, expected one or the other");
+    }
     let settings = Settings {
         film: clock.time("compile", || Film::new(&process, arguments.form))?,
         process,
         exposure: arguments.ev,
+        scene,
         input_coding: arguments.input_coding,
         input_primaries: if arguments.look.names_input_space() {
             InputPrimaries::OfLook

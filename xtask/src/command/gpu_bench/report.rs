@@ -86,7 +86,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Report> {
 
 impl Forms {
     fn new(film: &Reference) -> Result<Self> {
-        let shaper = fitted_to(film, &Fitted::Look { stops: None })?;
+        let shaper = fitted_to(&onelight::Look::from(film.clone()), &Fitted::Look { stops: None })?;
         let table = bake(PLAIN_SIZE, &shaper, |rgb| film.develop(rgb), |_| {})?;
         let settings = StructuredSettings { size: STRUCTURED_SIZE, ..Default::default() };
         Ok(Self {

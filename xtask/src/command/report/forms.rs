@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use onelight::lut::Storage;
-use onelight::{DirectSettings, Entries, Nodes, Process, Reference, TableCoding, Word};
+use onelight::{DirectSettings, Entries, Look, Nodes, Process, Reference, TableCoding, Word};
 use serde::Serialize;
 
 use crate::compiled::{Compiled, Form, Recipe, ShaperChoice};
@@ -86,6 +86,7 @@ const FITTED: [[usize; 2]; 9] = [[3, 4], [3, 5], [4, 6], [4, 7], [4, 8], [5, 9],
 
 /// All forms of a look, those of one time next to each other.
 pub(super) fn all(film: &Reference, process: &Process, scope: Scope, done: impl Fn()) -> Result<Vec<Made>> {
+    let look = Look::from(film.clone());
     let (plain, structured): (&[usize], &[usize]) = match scope {
         Scope::Full => (&[17, 33, 65], &[8, 16, 24, 32, 48, 64]),
         Scope::Quick => (&[17], &[8, 16]),
@@ -97,7 +98,7 @@ pub(super) fn all(film: &Reference, process: &Process, scope: Scope, done: impl 
     let timed = |made: &[Made]| made.last().map_or(0, |last| last.timed + 1);
     let mut add = |kind, recipe: Recipe, stored: &[Storage], detail: &str| -> Result<()> {
         let group = timed(&made);
-        made.extend(Made::stored(film, process, (kind, detail), &recipe, stored)?.map(|m| Made { timed: group, ..m }));
+        made.extend(Made::stored(&look, process, (kind, detail), &recipe, stored)?.map(|m| Made { timed: group, ..m }));
         done();
         Ok(())
     };
@@ -131,13 +132,13 @@ pub(super) fn steps(scope: Scope) -> u64 {
 impl Made {
     /// One table in several storages: fitted once.
     fn stored(
-        film: &Reference,
+        look: &Look,
         process: &Process,
         (kind, detail): (Kind, &str),
         recipe: &Recipe,
         stored: &[Storage],
     ) -> Result<impl Iterator<Item = Self>> {
-        let exact = Compiled::new(film, process, recipe, None)?;
+        let exact = Compiled::new(look, process, recipe, None)?;
         let curves = match &exact {
             Compiled::Structured(lut) => {
                 lut.parts().curves.size() + lut.parts().mix.as_ref().map_or(0, |mix| mix.curves.size())

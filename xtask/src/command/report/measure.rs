@@ -101,7 +101,8 @@ impl Prepared {
         let progress = bar("making forms", forms::steps(scope));
         let made = forms::all(&film, process, scope, || progress.inc(1))?;
         progress.finish_and_clear();
-        let measure = Measure::new(&film, process)?;
+        let look = onelight::Look::from(film.clone());
+        let measure = Measure::new(&look, process)?;
         let progress = bar("certifying", 1 + made.len() as u64);
         let samples = measure.samples(&law(scope), WorkingSpace::Srgb)?;
         progress.inc(1);

@@ -43,8 +43,9 @@ impl Studies {
         let curves = curves::curves(prepared, &colours)?;
         progress.inc(1);
         let mut steps = Vec::new();
+        let film = onelight::Look::from(prepared.film.clone());
         for case in &buffers::CASES {
-            steps.push((case.name, buffers::largest_step(case, &prepared.film)?));
+            steps.push((case.name, buffers::largest_step(case, &film)?));
         }
         progress.finish_and_clear();
         Ok(Self { grids, exposure, curves, buffers: steps })

@@ -1,0 +1,98 @@
+use nalgebra::{Matrix3, Vector3};
+use onelight_film::{EXPOSURE_FLOOR, LAYER_NAMES, PerLayer, Stock, Tail};
+use onelight_spectra::{Chromaticity, DisplayDifference, RgbSpace, TransferCurve};
+
+use super::post::PostColour;
+use super::tone_curve::ToneCurve;
+use crate::error::Error;
+use crate::process::{Films, Process};
+use crate::scene::SceneInput;
+
+/// The talk's first approach: a matrix before, a tone curve for each channel, a matrix after (\[Gotanda2010\]).
+///
+/// Red, green and blue light count as 612, 549 and 464 nm. Dyes, spectra and the printer's lights are left out, and with them
+/// what makes colours of film: the picture lies dE 5 to 6 from the second approach in the mean.
+#[derive(Debug, Clone)]
+pub struct FirstApproach {
+    scene: SceneInput,
+    matrix: Matrix3<f64>,
+    curves: PerLayer<ToneCurve>,
+    post: PostColour,
+    to_output: Matrix3<f64>,
+    coding: TransferCurve,
+    output: RgbSpace,
+}
+
+/// What red, green and blue light are taken for, in nm.
+const WAVELENGTHS_NM: [f64; 3] = [612.0, 549.0, 464.0];
+/// Scene value of mid grey.
+const MID_GREY: f64 = 0.18;
+
+impl FirstApproach {
+    pub(crate) fn new(process: &Process) -> Result<Self, Error> {
+        let films = Films::of(process)?;
+        let density = process.neutral_density;
+        let layers = PerLayer::from(LAYER_NAMES);
+        let film = films.camera.characteristic().zip_map(layers, |curve, layer| (curve, layer));
+        let curves = match &films.print {
+            Some(print) => film.zip_map(print.characteristic(), |film, paper| (film, paper)).try_map(
+                |((curve, layer), paper), _| ToneCurve::printed(&films.camera, curve, print, layer, paper, density),
+            )?,
+            None => film.try_map(|(curve, layer), _| ToneCurve::reversal(&films.camera, layer, curve, density))?,
+        };
+        let output = process.output_space.space();
+        Ok(Self {
+            scene: SceneInput::new(process)?,
+            matrix: pre_colour(&films.camera),
+            curves: curves.try_map(|curve, _| curve.edited(&process.first.curve))?,
+            post: PostColour::new(&process.first)?,
+            to_output: RgbSpace::SRGB.to_about(&output, Chromaticity::black_body_6500_k())?,
+            coding: process.output_coding,
+            output,
+        })
+    }
+
+    /// Scene-linear RGB to display-linear RGB, not clipped. Hard inputs as in [`crate::Look::develop`]; what is negative in
+    /// sRGB primaries counts as 0.
+    #[must_use]
+    pub fn develop_linear(&self, rgb: [f64; 3]) -> [f64; 3] {
+        let exposure = self.matrix * Vector3::from(self.scene.clean(rgb)) / MID_GREY;
+        let exposure = PerLayer::from(exposure.data.0[0]);
+        let coded = self.curves.as_ref().zip_map(exposure, |curve, e| curve.at(e.max(EXPOSURE_FLOOR).log10()));
+        let linear = self.post.apply(coded.to_array()).map(|v| TransferCurve::Srgb.decode(v));
+        (self.to_output * Vector3::from(linear)).data.0[0]
+    }
+
+    /// The pre-colour matrix: sensitivity of layer i at the wavelength of light k, each row summing to 1.
+    #[must_use]
+    pub fn pre_colour(&self) -> &Matrix3<f64> {
+        &self.matrix
+    }
+
+    /// The tone curve of each channel, edits included.
+    #[must_use]
+    pub fn tone_curves(&self) -> PerLayer<&ToneCurve> {
+        self.curves.as_ref()
+    }
+
+    /// The post-colour matrix.
+    #[must_use]
+    pub fn post_colour(&self) -> &PostColour {
+        &self.post
+    }
+
+    pub(super) fn coding(&self) -> TransferCurve {
+        self.coding
+    }
+
+    pub(super) fn difference(&self) -> Result<DisplayDifference, Error> {
+        Ok(DisplayDifference::new(&self.output)?)
+    }
+}
+
+/// Beyond the published range the sensitivities go on log-linearly.
+fn pre_colour(film: &Stock) -> Matrix3<f64> {
+    let layers = film.sensitivity().to_array();
+    let row = |i: usize| WAVELENGTHS_NM.map(|nm| 10f64.powf(layers[i].log10_at(nm, Tail::LogLinear)));
+    Matrix3::from_fn(|i, k| row(i)[k] / row(i).iter().sum::<f64>())
+}

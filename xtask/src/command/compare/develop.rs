@@ -1,0 +1,87 @@
+//! Shots of a sheet developed, and measured against each other.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use anyhow::Result;
+use onelight::spectra::{DisplayDifference, RgbSpace};
+use onelight::{Look, Process};
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::frame::Frame;
+use super::plan::Shot;
+
+/// A frame's colours developed, display-linear sRGB; or why they are not.
+pub(super) type Developed = Result<Arc<Vec<[f32; 3]>>, String>;
+
+/// Looks and pictures made so far.
+#[derive(Default)]
+pub(super) struct Darkroom {
+    looks: HashMap<String, Result<Arc<Look>, String>>,
+    pictures: HashMap<(String, i32), Developed>,
+}
+
+impl Darkroom {
+    /// Pictures of another frame are of no use.
+    pub(super) fn change_frame(&mut self) {
+        self.pictures.clear();
+    }
+
+    /// A look, compiled once.
+    pub(super) fn look(&mut self, process: &Process) -> Result<Arc<Look>, String> {
+        let key = process.to_toml();
+        self.looks.entry(key).or_insert_with(|| process.look().map(Arc::new).map_err(|error| error.to_string())).clone()
+    }
+
+    /// A shot of a frame, developed once.
+    pub(super) fn develop(&mut self, frame: &Frame, shot: &Shot) -> Developed {
+        let key = (shot.process.to_toml(), shot.ev);
+        if let Some(developed) = self.pictures.get(&key) {
+            return developed.clone();
+        }
+        let developed = self.look(&shot.process).map(|look| Arc::new(picture(&look, frame, shot.ev)));
+        self.pictures.insert(key, developed.clone());
+        developed
+    }
+}
+
+/// The exact look of every colour.
+fn picture(look: &Look, frame: &Frame, ev: i32) -> Vec<[f32; 3]> {
+    let scale = f64::from(ev).exp2();
+    let develop = |rgb: &[f32; 3]| look.develop_linear(rgb.map(|v| f64::from(v) * scale)).map(|v| v as f32);
+    frame.colours.par_iter().map(develop).collect()
+}
+
+/// Difference of two pictures: CIEDE2000 of the display colours, clipped to the display.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub(super) struct Distance {
+    pub(super) mean: f64,
+    pub(super) p95: f64,
+    pub(super) max: f64,
+}
+
+impl Distance {
+    pub(super) fn of(differences: &[f32]) -> Self {
+        let mut sorted = differences.to_vec();
+        sorted.sort_by(f32::total_cmp);
+        let at = |part: f64| sorted.get((part * (sorted.len() as f64 - 1.0)) as usize).copied().map_or(0.0, f64::from);
+        let mean = differences.iter().copied().map(f64::from).sum::<f64>() / differences.len().max(1) as f64;
+        Self { mean, p95: at(0.95), max: at(1.0) }
+    }
+}
+
+/// Colour by colour.
+pub(super) fn differences(a: &[[f32; 3]], b: &[[f32; 3]]) -> Result<Vec<f32>> {
+    let difference = DisplayDifference::new(&RgbSpace::SRGB)?;
+    let between = |(a, b): (&[f32; 3], &[f32; 3])| difference.between(a.map(f64::from), b.map(f64::from)) as f32;
+    Ok(a.par_iter().zip(b).map(between).collect())
+}
+
+/// What one look lies from another on the ColorChecker from -2 to +2 stops: the figures of docs/talk.md.
+pub(super) fn on_chart(plain: &Look, turned: &Look, chart: &[[f64; 3]]) -> Result<Distance> {
+    let difference = DisplayDifference::new(&RgbSpace::SRGB)?;
+    let colours = (-2..=2).flat_map(|ev| chart.iter().map(move |rgb| rgb.map(|v| v * f64::from(ev).exp2())));
+    let between = |rgb: [f64; 3]| difference.between(plain.develop_linear(rgb), turned.develop_linear(rgb)) as f32;
+    Ok(Distance::of(&colours.map(between).collect::<Vec<f32>>()))
+}

@@ -1,0 +1,138 @@
+//! The pictures that the looks are shown on.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use anyhow::{Context, Result, bail};
+use onelight::Process;
+use onelight::spectra::nalgebra::{Matrix3, Vector3};
+use onelight::spectra::{Basis, Chromaticity, Reconstruction, RgbSpace, color_checker};
+
+use crate::picture::{Band, Description, Limits, Source, open};
+use crate::{scene_colours, truth};
+
+/// Width of a tile in pixels; height of the scene's.
+pub(super) const WIDTH: usize = 288;
+const SCENE_HEIGHT: usize = 162;
+/// A picture of the user's taller than this is made narrower instead.
+const MAX_HEIGHT: usize = 320;
+
+/// Scene-linear light (sRGB primaries, white is 6500 K) to show looks on.
+pub(super) struct Frame {
+    /// What it is, for captions and file names.
+    pub(super) name: String,
+    pub(super) width: usize,
+    pub(super) height: usize,
+    /// Its different colours.
+    pub(super) colours: Vec<[f32; 3]>,
+    /// Which of them each pixel has, row by row.
+    pub(super) pixels: Vec<u32>,
+}
+
+impl Frame {
+    fn new(name: String, (width, height): (usize, usize), rgb: &[[f32; 3]]) -> Self {
+        let (mut colours, mut known) = (Vec::new(), HashMap::new());
+        let mut place = |rgb: &[f32; 3]| {
+            *known.entry(rgb.map(f32::to_bits)).or_insert_with(|| {
+                colours.push(*rgb);
+                colours.len() as u32 - 1
+            })
+        };
+        let pixels = rgb.iter().map(&mut place).collect();
+        Self { name, width, height, colours, pixels }
+    }
+
+    /// One value for each pixel, from one for each colour.
+    pub(super) fn spread<T: Copy>(&self, of_colours: &[T]) -> Vec<T> {
+        self.pixels.iter().filter_map(|i| of_colours.get(*i as usize).copied()).collect()
+    }
+}
+
+/// The fixture scene.
+pub(super) fn scene() -> Result<Frame> {
+    let rgb = truth::rgb((WIDTH, SCENE_HEIGHT))?;
+    Ok(Frame::new("scene".to_owned(), (WIDTH, SCENE_HEIGHT), &rgb))
+}
+
+/// The ColorChecker under the white of the scene, as a display of its patches.
+pub(super) fn chart() -> Result<Frame> {
+    /// Side of a patch and the black between two, in pixels.
+    const PATCH: (usize, usize) = (41, 6);
+    let patches = chart_colours()?;
+    let pitch = PATCH.0 + PATCH.1;
+    let (width, height) = (6 * pitch + PATCH.1, 4 * pitch + PATCH.1);
+    let at = |i: usize| {
+        let (x, y) = (i % width, i / width);
+        let inside = |v: usize| v % pitch >= PATCH.1;
+        if inside(x) && inside(y) { patches[(y / pitch) * 6 + x / pitch].map(|v| v as f32) } else { [0.0; 3] }
+    };
+    let rgb: Vec<[f32; 3]> = (0..width * height).map(at).collect();
+    Ok(Frame::new("colorchecker".to_owned(), (width, height), &rgb))
+}
+
+/// Scene values of the ColorChecker's patches.
+pub(super) fn chart_colours() -> Result<Vec<[f64; 3]>> {
+    let basis = Basis::new(Reconstruction::Smooth)?;
+    let rgb = |patch: &onelight::spectra::Patch| basis.rgb_of(&basis.white().reflected_by(&patch.reflectance));
+    // One patch, cyan, lies a little outside sRGB.
+    Ok(color_checker().iter().map(|patch| rgb(patch).data.0[0].map(|v| v.max(0.0))).collect())
+}
+
+/// A picture of the user's, small, its log average at mid grey.
+pub(super) fn user(path: &Path) -> Result<Frame> {
+    let mut picture = open(path, &Limits::default())?;
+    let Description { width, height, source, primaries, .. } = picture.description().clone();
+    if source != Source::Exr {
+        bail!("{}: compare takes scene-linear pictures, expected an EXR", path.display());
+    }
+    let to_srgb = scene_colours::to_input_space(primaries.as_ref(), &Process::default());
+    let to_srgb = to_srgb.with_context(|| path.display().to_string())?.unwrap_or_else(Matrix3::identity);
+    let shrink = (width as f64 / WIDTH as f64).max(height as f64 / MAX_HEIGHT as f64).max(1.0);
+    let size = [width, height].map(|pixels| ((pixels as f64 / shrink) as usize).max(1));
+    // Sums of the finite pixels that fall on each small one, and their number.
+    let mut sums = vec![(Vector3::zeros(), 0.0); size[0] * size[1]];
+    let mut band = Band::default();
+    loop {
+        picture.next_into(&mut band)?;
+        if band.rgb.is_empty() {
+            break;
+        }
+        for (i, rgb) in band.rgb.iter().enumerate().filter(|(_, rgb)| rgb.iter().all(|v| v.is_finite())) {
+            let (x, y) = (i % width * size[0] / width, (band.top + i / width) * size[1] / height);
+            let (sum, count) = &mut sums[y * size[0] + x];
+            *sum += Vector3::from(rgb.map(f64::from));
+            *count += 1.0;
+        }
+    }
+    let mean = |(sum, count): &(Vector3<f64>, f64)| (to_srgb * sum / count.max(1.0)).data.0[0].map(|v| v.max(0.0));
+    let rgb: Vec<[f64; 3]> = sums.iter().map(mean).collect();
+    let average = log_average(&rgb)?.with_context(|| format!("{}: the picture holds no light", path.display()))?;
+    let rgb: Vec<[f32; 3]> = rgb.into_iter().map(|rgb| rgb.map(|v| (0.18 / average * v) as f32)).collect();
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
+    Ok(Frame::new(stem.chars().map(plain).take(24).collect(), (size[0], size[1]), &rgb))
+}
+
+/// Geometric mean of the luminance of the pixels that have any.
+fn log_average(rgb: &[[f64; 3]]) -> Result<Option<f64>> {
+    let weights = RgbSpace::SRGB.with_white(Chromaticity::black_body_6500_k()).to_xyz()?.row(1).transpose();
+    let luminance = rgb.iter().map(|rgb| weights.dot(&Vector3::from(*rgb)));
+    let logs: Vec<f64> = luminance.filter(|y| *y > 0.0 && y.is_finite()).map(f64::ln).collect();
+    Ok((!logs.is_empty()).then(|| (logs.iter().sum::<f64>() / logs.len() as f64).exp()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_chart_shows_its_patches_in_order() {
+        let (chart, patches) = (chart().unwrap(), chart_colours().unwrap());
+        let rgb = chart.spread(&chart.colours);
+        let at = |column: usize, row: usize| rgb[(row * 47 + 30) * chart.width + column * 47 + 30];
+        assert_eq!(at(0, 0), patches[0].map(|v| v as f32));
+        assert_eq!(at(5, 3), patches[23].map(|v| v as f32));
+        assert_eq!(rgb[0], [0.0; 3]);
+        assert_eq!((rgb.len(), chart.colours.len()), (chart.width * chart.height, 25));
+    }
+}

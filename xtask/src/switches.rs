@@ -1,0 +1,187 @@
+//! The switches of the talk on the command line: the same words as in look.toml.
+
+use std::str::FromStr;
+
+use clap::Args;
+use onelight::{
+    Approach, Calibration, Filters, HeatGlass, Infrared, Matching, PrinterLight, Process, Projector, Reconstruction,
+    Tail, Word, Wratten,
+};
+
+use crate::look::words;
+
+/// What each step of the simulation can be changed to; docs/talk.md has the size of each.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Switches of the talk (docs/talk.md)")]
+pub(crate) struct Switches {
+    /// The simulation, the talk's first approach, or a tone mapping to compare with [default: second]
+    #[arg(long, value_parser = words::<Approach>())]
+    approach: Option<Approach>,
+    /// Equivalent neutral density of a grey card in neutral aim, 0.05 to 3 [default: 0.7]
+    #[arg(long, value_name = "D")]
+    neutral_density: Option<f64>,
+    /// Stops that the camera film is exposed over normal, the print corrected for it [default: 0]
+    #[arg(long, value_name = "STOPS", allow_hyphen_values = true)]
+    overexposure: Option<f64>,
+    /// How exposures meet the characteristic curves [default: grey]
+    #[arg(long, value_parser = words::<Matching>())]
+    matching: Option<Matching>,
+    /// How a spectrum is made for an RGB value [default: smooth]
+    #[arg(long, value_parser = words::<Reconstruction>())]
+    reconstruction: Option<Reconstruction>,
+    /// The printer's light [default: separations]
+    #[arg(long, value_parser = words::<PrinterLight>())]
+    light: Option<PrinterLight>,
+    /// Gelatin filters in the printer, comma-separated, or none [default: 70,99,98,2b]
+    #[arg(long, value_name = "NUMBERS|none", value_parser = filters)]
+    filters: Option<Filters>,
+    /// Neutral density in the printer's red, green and blue beam [default: 0.5,0.55,0.9]
+    #[arg(long, value_name = "R,G,B", value_parser = triple)]
+    beam_density: Option<Triple>,
+    /// How the printer's lights are found: exactly, or by so many of the talk's iterations [default: exact]
+    #[arg(long, value_name = "exact|N", value_parser = calibration)]
+    calibration: Option<Calibration>,
+    /// Printer points on red, green and blue light: 0.025 log10 exposure each [default: 0,0,0]
+    #[arg(long, value_name = "R,G,B", value_parser = triple, allow_hyphen_values = true)]
+    points: Option<Triple>,
+    /// Whether infrared takes part in printing [default: on]
+    #[arg(long, value_parser = words::<Infrared>())]
+    infrared: Option<Infrared>,
+    /// The heat glass of the printer [default: no-2043]
+    #[arg(long, value_parser = words::<HeatGlass>())]
+    glass: Option<HeatGlass>,
+    /// How the print's red layer goes on beyond its sheet [default: log-linear]
+    #[arg(long, value_parser = words::<Tail>())]
+    red_tail: Option<Tail>,
+    /// The light that the film is seen by [default: display]
+    #[arg(long, value_parser = words::<Projector>())]
+    projector: Option<Projector>,
+    /// First approach: steepness about mid grey [default: 1]
+    #[arg(long, value_name = "X")]
+    contrast: Option<f64>,
+    /// First approach: added to the display-coded value [default: 0]
+    #[arg(long, value_name = "X", allow_hyphen_values = true)]
+    brightness: Option<f64>,
+    /// First approach: colour of the light that white should look like, in K [default: 6500]
+    #[arg(long, value_name = "KELVIN")]
+    temperature: Option<f64>,
+    /// First approach: distance from grey [default: 1]
+    #[arg(long, value_name = "X")]
+    saturation: Option<f64>,
+    /// First approach: points the tone curve is bent through, stops about mid grey and display-coded value
+    #[arg(long, value_name = "STOPS:VALUE,...", value_delimiter = ',', value_parser = point, allow_hyphen_values = true)]
+    curve: Vec<Point>,
+}
+
+/// Red, green, blue.
+type Triple = [f64; 3];
+/// Stops, value.
+type Point = [f64; 2];
+
+impl Switches {
+    /// Turns the switches that the command line names.
+    pub(crate) fn apply(&self, process: &mut Process) {
+        macro_rules! turn {
+            ($($field:ident),+ of $target:expr) => {
+                $(if let Some(value) = self.$field { $target.$field = value; })+
+            };
+        }
+        turn!(approach, neutral_density, overexposure, matching, reconstruction, light, filters, beam_density of process);
+        turn!(calibration, points, infrared, glass, red_tail, projector of process);
+        turn!(contrast, brightness, temperature, saturation of process.first);
+        if !self.curve.is_empty() {
+            process.first.curve.clone_from(&self.curve);
+        }
+    }
+}
+
+fn filters(text: &str) -> Result<Filters, String> {
+    if text == "none" {
+        return Ok(Filters::of(&[]));
+    }
+    let filters: Result<Vec<Wratten>, _> = text.split(',').map(Wratten::parse).collect();
+    filters.map(|filters| Filters::of(&filters)).map_err(|error| error.to_string())
+}
+
+fn calibration(text: &str) -> Result<Calibration, String> {
+    Process::parse_calibration(text).map_err(|error| error.to_string())
+}
+
+fn triple(text: &str) -> Result<Triple, String> {
+    numbers(text, ',').ok_or_else(|| "expected three numbers, red, green, blue, such as 1,0,-1".to_owned())
+}
+
+fn point(text: &str) -> Result<Point, String> {
+    numbers(text, ':').ok_or_else(|| "expected stops about mid grey and a value, such as -2:0.2".to_owned())
+}
+
+fn numbers<const N: usize>(text: &str, between: char) -> Option<[f64; N]> {
+    let numbers: Result<Vec<f64>, _> = text.split(between).map(f64::from_str).collect();
+    numbers.ok()?.try_into().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        switches: Switches,
+    }
+
+    fn process(arguments: &[&str]) -> Process {
+        let mut process = Process::default();
+        Line::parse_from([&["line"], arguments].concat()).switches.apply(&mut process);
+        process
+    }
+
+    /// Every key of look.toml but the look's own options can be turned on the command line, with the same words.
+    #[test]
+    fn every_switch_of_a_look_is_on_the_command_line() {
+        let arguments = [
+            "--approach=first",
+            "--neutral-density=1",
+            "--overexposure=-1",
+            "--matching=absolute",
+            "--reconstruction=boxes-raw",
+            "--light=white",
+            "--filters=70,99",
+            "--beam-density=0,0.1,0",
+            "--calibration=2",
+            "--points=1,0,-1",
+            "--infrared=off",
+            "--glass=none",
+            "--red-tail=held",
+            "--projector=xenon",
+            "--contrast=1.1",
+            "--brightness=-0.1",
+            "--temperature=5000",
+            "--saturation=0.9",
+            "--curve=-2:0.2,0:0.5",
+        ];
+        let (plain, turned) = (Process::default(), process(&arguments));
+        let keys = |process: &Process| process.to_toml().parse::<toml::Table>().unwrap();
+        let (before, after) = (keys(&plain), keys(&turned));
+        let elsewhere = ["version", "camera", "print", "aim", "dyes", "input_space", "output_space", "output_coding"];
+        for (key, value) in &after {
+            assert_eq!(before[key] == *value, elsewhere.contains(&key.as_str()), "{key}");
+        }
+        for (key, value) in after["first"].as_table().unwrap() {
+            assert!(before["first"].get(key) != Some(value), "first.{key}");
+        }
+        assert_eq!(turned.first.curve, [[-2.0, 0.2], [0.0, 0.5]]);
+        assert_eq!(process(&["--filters=none"]).filters, Filters::of(&[]));
+        assert_eq!(process(&[]), plain);
+    }
+
+    #[test]
+    fn mistakes_are_named() {
+        let message = |argument: &str| Line::try_parse_from(["line", argument]).map(|_| ()).unwrap_err().to_string();
+        assert!(message("--points=1,2").contains("three numbers"));
+        assert!(message("--curve=1").contains("-2:0.2"));
+        assert!(message("--filters=71").contains("one of 70, 99, 98, 2b"));
+        assert!(message("--calibration=99").contains("0 to 30"));
+    }
+}
