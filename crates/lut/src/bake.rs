@@ -97,7 +97,7 @@ fn along_axis(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Interpolation;
+    use crate::{Interpolation, PlainLut};
     use std::sync::Mutex;
 
     fn shaper() -> Shaper {
@@ -106,6 +106,20 @@ mod tests {
 
     fn look([r, g, b]: [f64; 3]) -> [f64; 3] {
         [r / (r + 0.18), (g * b).sqrt(), (b + 0.1 * r).ln_1p()]
+    }
+
+    #[test]
+    fn a_form_is_baked_as_it_maps_pixels() {
+        let form = PlainLut::new(shaper(), bake(5, &shaper(), look, |_| {}).unwrap(), Interpolation::Tetrahedral);
+        let at = |t: [f64; 3]| [4.0 * t[0], t[1], 0.5 * t[2]];
+        let table = bake_form(6, at, &form).unwrap();
+        for (index, entry) in table.entries().iter().enumerate() {
+            let coordinates = node_of(index, 6).map(|i| i as f64 / 5.0);
+            let pixel = form.apply(at(coordinates).map(|v| v as f32));
+            // Whole rows may be rounded otherwise than single pixels.
+            assert!(entry.iter().zip(pixel).all(|(a, b)| (a - b).abs() < 1e-6), "{entry:?} {pixel:?}");
+        }
+        assert!(bake_form(1, at, &form).is_err());
     }
 
     #[test]

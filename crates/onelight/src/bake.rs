@@ -5,8 +5,8 @@ use crate::error::Error;
 use crate::reference::Reference;
 
 impl DirectSettings {
-    /// What plain tables are baked with: entries differ from the exact film's by 0.05 dE at most, a fraction of what reading
-    /// between them costs.
+    /// What plain tables are baked with: 5 nm for most films, 10 nm for some, so that entries lie within 0.05 dE of the exact
+    /// film's, a fraction of what reading between them costs.
     pub const BAKING: Self = Self { nodes: Nodes::GridUnderMaxDe(0.05) };
 }
 

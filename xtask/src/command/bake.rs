@@ -46,7 +46,7 @@ pub(crate) struct Arguments {
     /// Files to write, comma-separated [default: cube for plain, clf for structured]
     #[arg(long, value_delimiter = ',', value_name = "FORMATS")]
     format: Vec<Format>,
-    /// Exponentials of the direct form: of the projection, and of the print's exposure [default: 9,5]
+    /// Exponentials of the direct form: of the projection, and of the print's exposure [default: 10,5]
     #[arg(long, value_name = "P[,D]", value_parser = nodes)]
     nodes: Option<Nodes>,
     /// Choose the smallest structured table, or with --form direct the fewest exponentials, whose certified maximum is at most X

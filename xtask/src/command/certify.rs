@@ -56,9 +56,9 @@ fn forms() -> Vec<(&'static str, Recipe)> {
         ("structured 16^3, f16", Recipe { size: 16, ..structured }),
         ("structured 32^3, f16", structured),
         ("structured 32^3, f32", Recipe { storage: Storage::F32, ..structured }),
-        ("direct 6 + 4", counts(6, 4)),
-        ("direct 9 + 5", counts(9, 5)),
-        ("direct 12 + 6", counts(12, 6)),
+        ("direct 6 + 3", counts(6, 3)),
+        ("direct 8 + 4", counts(8, 4)),
+        ("direct 10 + 5", counts(10, 5)),
         ("structured 32^3, 10 bit", Recipe { storage: Storage::Unorm10, coding: TableCoding::Display, ..structured }),
     ]
 }

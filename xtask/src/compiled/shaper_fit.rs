@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 use onelight::lut::{DirectForm, Interpolation, PlainLut, SceneSampler, Shaper, bake_form};
+use onelight::spectra::{DisplayDifference, ciede2000};
 use onelight::{DirectSettings, Look, Nodes};
 use rayon::prelude::*;
 
@@ -49,9 +50,11 @@ pub(crate) fn fitted_to(film: &Look, target: &Fitted) -> Result<Shaper> {
         }
     };
     let trial = Trial::new(film, &colours)?;
+    let tried: Vec<Result<(f64, f64)>> =
+        ranges.par_iter().map(|&max| golden(|exponent| trial.error(exponent, max))).collect();
     let mut best: Option<(f64, Shaper)> = None;
-    for max in ranges {
-        let (error, exponent) = golden(|exponent| trial.error(exponent, max))?;
+    for (max, tried) in ranges.into_iter().zip(tried) {
+        let (error, exponent) = tried?;
         if best.as_ref().is_none_or(|(least, _)| error < *least) {
             best = Some((error, shaper(exponent, max)?));
         }
@@ -89,9 +92,11 @@ fn golden(f: impl Fn(f64) -> Result<f64>) -> Result<(f64, f64)> {
 /// Colours and what the film makes of them.
 struct Trial<'a> {
     film: &'a Look,
-    /// Bakes the tables of a film: what it misses is small beside what they do.
+    /// Stands for a film: what it misses is small beside what the tables do.
     baking: Option<DirectForm>,
-    pairs: Vec<([f64; 3], [f64; 3])>,
+    difference: DisplayDifference,
+    /// Scene-linear, and what the look makes of it in CIELAB.
+    pairs: Vec<([f32; 3], [f64; 3])>,
 }
 
 impl<'a> Trial<'a> {
@@ -100,7 +105,17 @@ impl<'a> Trial<'a> {
             Look::Film(film) => Some(film.direct(&DirectSettings { nodes: Nodes::Grid { step_nm: 10 } })?),
             Look::First(_) | Look::Baseline(_) => None,
         };
-        Ok(Self { film, baking, pairs: colours.par_iter().map(|&rgb| (rgb, film.develop_linear(rgb))).collect() })
+        let difference = film.difference()?;
+        let pairs = colours.par_iter().map(|&rgb| {
+            let single = rgb.map(|v| v as f32);
+            let linear = match &baking {
+                Some(form) => form.apply(single).map(|v| film.coding().decode(f64::from(v))),
+                None => film.develop_linear(rgb),
+            };
+            (single, difference.lab(linear))
+        });
+        let pairs = pairs.collect();
+        Ok(Self { film, baking, difference, pairs })
     }
 
     /// Mean difference of a small table, and a hundredth of the largest: clipped colours are few.
@@ -112,9 +127,9 @@ impl<'a> Trial<'a> {
             None => self.film.bake(TRIAL_SIZE, at)?,
         };
         let lut = PlainLut::new(shaper, table, Interpolation::Tetrahedral);
-        let difference = self.film.difference()?;
-        let read = |rgb: [f64; 3]| lut.apply(rgb.map(|v| v as f32)).map(|v| self.film.coding().decode(f64::from(v)));
-        let all: Vec<f64> = self.pairs.par_iter().map(|(rgb, exact)| difference.between(*exact, read(*rgb))).collect();
+        let coding = self.film.coding();
+        let read = |rgb: [f32; 3]| self.difference.lab(lut.apply(rgb).map(|v| coding.decode(f64::from(v))));
+        let all: Vec<f64> = self.pairs.par_iter().map(|(rgb, exact)| ciede2000(*exact, read(*rgb))).collect();
         Ok(all.iter().sum::<f64>() / all.len() as f64 + all.iter().copied().fold(0.0, f64::max) / 100.0)
     }
 }

@@ -31,7 +31,7 @@ pub(super) struct Training {
 /// Exposures of the colours, in stops about mid grey: until every layer of every film is clear or full.
 const STOPS: (f64, f64) = (-10.0, 14.0);
 /// Colours.
-const COUNT: usize = 1536;
+const COUNT: usize = 1024;
 const SEED: u64 = 0x666d_6469_7231_3031;
 /// Difference that a miss of a whole print exposure counts for where the print hardly responds: keeps sums from falling to 0.
 const LEAST_SEEN: f64 = 3.0;
