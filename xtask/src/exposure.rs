@@ -121,13 +121,13 @@ impl ExposureArguments {
         };
         let (mut factor, mut stored) = (1.0, None);
         if let Some((shutter, f_number, speed)) = camera {
+            let camera = Camera::new(shutter, f_number)?;
             let scale = FrameBufferScale::new(shutter, f_number * f_number, speed)?.stored(1.0);
             let lux = match self.unit {
                 Unit::Relative | Unit::Lux => 1.0,
                 Unit::WPerM2 => white_lumens_per_watt(),
                 Unit::Stored => white_lumens_per_watt() / scale,
             };
-            let camera = Camera::new(shutter, f_number)?;
             factor = camera.scene_value(lux, speed)?;
             stored = Some(scale * lux / white_lumens_per_watt());
             let white = camera.scene_value(1000.0, speed)?;

@@ -86,7 +86,13 @@ impl Duplication {
         target: PerLayer<LogExposure>,
     ) -> Result<PrinterLights, Error> {
         let target = Vector3::from(target.map(LogExposure::exposure).to_array());
-        let lights = self.response(amounts).lu().solve(&target).filter(|g| g.iter().all(|v| v.is_finite()));
+        let response = self.response(amounts);
+        let directions = Matrix3::from_columns(&std::array::from_fn::<_, 3, _>(|k| response.column(k).normalize()));
+        // Not 0 to the last bit where beams differ in strength alone.
+        if directions.determinant().abs() < LEAST_VOLUME {
+            return Err(self.dependent());
+        }
+        let lights = response.lu().solve(&target).filter(|g| g.iter().all(|v| v.is_finite()));
         let lights = lights.ok_or_else(|| self.dependent())?;
         self.checked(PerLayer::from([lights.x, lights.y, lights.z]))
     }
@@ -136,6 +142,9 @@ impl Duplication {
         Kind::Dependent { negative: self.negative.clone(), print: self.print.clone() }.into()
     }
 }
+
+/// Three lights that span less than this, each taken as a direction, are not three.
+const LEAST_VOLUME: f64 = 1e-9;
 
 /// Each layer of the print gets light `k` of its own colour alone: a white beam balanced layer by layer.
 fn only_its_own(mut weights: [[Vec<f64>; 3]; 3]) -> [[Vec<f64>; 3]; 3] {

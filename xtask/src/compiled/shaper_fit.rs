@@ -95,7 +95,7 @@ struct Trial<'a> {
     /// Stands for a film: what it misses is small beside what the tables do.
     baking: Option<DirectForm>,
     difference: DisplayDifference,
-    /// Scene-linear, and what the film makes of it in CIELAB.
+    /// Scene-linear, and what the look makes of it in CIELAB.
     pairs: Vec<([f32; 3], [f64; 3])>,
 }
 
@@ -106,11 +106,14 @@ impl<'a> Trial<'a> {
             Look::First(_) | Look::Baseline(_) => None,
         };
         let difference = film.difference()?;
-        let exact = |rgb: [f64; 3]| match &baking {
-            Some(form) => form.apply(rgb.map(|v| v as f32)).map(|v| film.coding().decode(f64::from(v))),
-            None => film.develop_linear(rgb),
-        };
-        let pairs = colours.par_iter().map(|&rgb| (rgb.map(|v| v as f32), difference.lab(exact(rgb))));
+        let pairs = colours.par_iter().map(|&rgb| {
+            let single = rgb.map(|v| v as f32);
+            let linear = match &baking {
+                Some(form) => form.apply(single).map(|v| film.coding().decode(f64::from(v))),
+                None => film.develop_linear(rgb),
+            };
+            (single, difference.lab(linear))
+        });
         let pairs = pairs.collect();
         Ok(Self { film, baking, difference, pairs })
     }
