@@ -19,7 +19,8 @@ pub(crate) fn gpu() -> Option<&'static Gpu> {
         let gpu = open();
         // Not by a macro, whose output a test that passes keeps to itself.
         let found = gpu.as_ref().map_or("tests on a GPU were skipped: found no adapter", |gpu| &gpu.name);
-        writeln!(io::stderr(), "{found}").unwrap();
+        let mut stderr = io::stderr();
+        writeln!(stderr, "{found}").unwrap();
         gpu
     };
     GPU.get_or_init(said).as_ref()
