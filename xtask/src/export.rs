@@ -8,7 +8,8 @@ use onelight::lut::{
     read_spi3d, read_strip, write_hald, write_ktx2, write_spi3d, write_strip,
 };
 
-use crate::compiled::Compiled;
+use crate::compiled::{Compiled, Form};
+use crate::direct_file;
 use crate::whole::WholeSet;
 
 /// The file formats of a baked look.
@@ -26,12 +27,39 @@ pub(crate) enum Format {
     Strip,
     /// look_hald.png: a Hald CLUT, 16 bit
     Hald,
+    /// look.direct.json: the numbers and equations of the direct form
+    Json,
 }
 
 impl Format {
-    /// The sentence for a structured look in a format that holds one table only.
-    pub(crate) fn takes_no_structured_form(self) -> anyhow::Error {
-        anyhow!("--format {} cannot hold the structured form, expected clf, or --form plain", self.word())
+    /// The format that is written where none is named.
+    pub(crate) fn usual(form: Form) -> Self {
+        match form {
+            Form::Plain => Self::Cube,
+            Form::Structured => Self::Clf,
+            Form::Direct => Self::Json,
+        }
+    }
+
+    /// Whether its files can hold a form.
+    pub(crate) fn holds(self, form: Form) -> bool {
+        match self {
+            Self::Clf => form != Form::Direct,
+            Self::Json => form == Form::Direct,
+            Self::Cube | Self::Spi3d | Self::Ktx2 | Self::Strip | Self::Hald => form == Form::Plain,
+        }
+    }
+
+    /// The sentence for a form that a format does not hold.
+    pub(crate) fn cannot_hold(self, form: Form) -> anyhow::Error {
+        let other = if self == Self::Json { Form::Direct } else { Form::Plain };
+        anyhow!(
+            "--format {} cannot hold the {} form, expected {}, or --form {}",
+            self.word(),
+            form.word(),
+            Self::usual(form).word(),
+            other.word()
+        )
     }
 
     /// Its name on the command line.
@@ -74,6 +102,10 @@ impl Export<'_> {
                 let clf = ClfProcess::read(bytes)?;
                 return Ok(Box::new(move |rgb| clf.apply(self.compiled.coordinates_for_file(rgb))));
             }
+            Format::Json => {
+                let direct = direct_file::read(bytes)?;
+                return Ok(Box::new(move |rgb| direct.apply(rgb)));
+            }
             Format::Spi3d => read_spi3d(bytes)?,
             Format::Ktx2 => Storage::F16.stored(self.table(format)?)?,
             Format::Strip => read_strip(bytes, StripGreen::Down)?,
@@ -101,6 +133,7 @@ impl Export<'_> {
                     Compiled::Plain(lut) => ClfProcess::from_plain(lut)?,
                     Compiled::Coded { table, .. } => ClfProcess::from_table(table, Interpolation::Tetrahedral),
                     Compiled::Structured(lut) => ClfProcess::from_structured(lut)?,
+                    Compiled::Direct(_) => return Err(format.cannot_hold(Form::Direct)),
                 };
                 clf.with_name(&self.process.name()).with_descriptions(&self.comments).write(&mut bytes)?;
                 files.push(("look.clf", bytes));
@@ -135,15 +168,21 @@ impl Export<'_> {
                 write_hald(&mut bytes, self.coded(format)?, PngDepth::Sixteen, &self.comments)?;
                 files.push(("look_hald.png", bytes));
             }
+            Format::Json => match self.compiled {
+                Compiled::Direct(direct) => {
+                    files.push(("look.direct.json", direct_file::write(direct, &self.comments)?));
+                }
+                other => return Err(format.cannot_hold(other.form())),
+            },
         }
         Ok(files)
     }
 
     /// The table of a plain form.
     fn table(&self, format: Format) -> Result<&Lut3d> {
-        match self.compiled {
-            Compiled::Plain(_) | Compiled::Coded { .. } => Ok(self.compiled.table()),
-            Compiled::Structured(_) => Err(format.takes_no_structured_form()),
+        match (self.compiled.form(), self.compiled.table()) {
+            (Form::Plain, Some(table)) => Ok(table),
+            (form, _) => Err(format.cannot_hold(form)),
         }
     }
 

@@ -4,6 +4,7 @@ mod buffers;
 mod certificate;
 mod command;
 mod compiled;
+mod direct_file;
 mod export;
 mod folders;
 mod look;

@@ -115,6 +115,7 @@ fn forms_and_formats_agree_on_the_scene() {
     let folder = folder.path();
     done(folder, &["develop", "scene.exr", "plain.png", "--form", "plain", "--bits", "16"]);
     done(folder, &["develop", "scene.exr", "structured.png", "--form", "structured", "--bits", "16"]);
+    done(folder, &["develop", "scene.exr", "direct.png", "--form", "direct", "--bits", "16"]);
     done(folder, &["develop", "scene.exr", "film.exr"]);
     done(folder, &["develop", "scene.exr", "film.png", "--ev", "0"]);
     // A developed picture is a picture: it can be developed again, its integers named as what they are.
@@ -129,8 +130,8 @@ fn forms_and_formats_agree_on_the_scene() {
     let film = coded("film.png");
     let largest = |path: &str| coded(path).iter().zip(film.iter()).map(|(a, b)| a.abs_diff(*b)).max().unwrap();
     // 8-bit rounding of the film is 128 of 65535; the tables add what their certificates say, dE 0.2 and 0.8 at most.
-    let (structured, plain) = (largest("structured.png"), largest("plain.png"));
-    assert!(structured < 300 && plain < 2000, "{structured} {plain}");
+    let (direct, structured, plain) = (largest("direct.png"), largest("structured.png"), largest("plain.png"));
+    assert!(direct < 300 && structured < 300 && plain < 2000, "{direct} {structured} {plain}");
 }
 
 #[test]
@@ -171,10 +172,51 @@ fn a_table_is_chosen_and_measured_on_the_users_scene() {
 }
 
 #[test]
+fn the_direct_form_is_baked_chosen_and_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let json = |text: &str| -> serde_json::Value { serde_json::from_str(text).unwrap() };
+    let baked = json(&done(folder, &["bake", "--form", "direct", "--nodes", "7,3", "--out", "a", "--json"]));
+    assert_eq!(files(&folder.join("a")), ["look.direct.json", "look.json", "look.toml", "preview.png"]);
+    assert!(baked["certificate"]["max_found"].as_f64().unwrap() < 0.4, "{}", baked["certificate"]["max_found"]);
+    let file = json(&fs::read_to_string(folder.join("a/look.direct.json")).unwrap());
+    assert_eq!(file["projection"].as_array().unwrap().len(), 7);
+    assert_eq!(file["print"]["exposure"].as_array().unwrap().len(), 3);
+    assert!(file["comments"].as_array().unwrap().iter().any(|line| line.as_str().unwrap().contains("CIEDE2000")));
+    let chosen = ["bake", "--form", "direct", "--camera", "fuji-velvia-50", "--max-de", "0.5", "--out", "b", "--json"];
+    let chosen = json(&done(folder, &chosen));
+    assert!(chosen["certificate"]["max_found"].as_f64().unwrap() <= 0.5);
+    let direct = |more: &[&str]| refused(folder, &[&["bake", "--form", "direct"], more].concat());
+    assert!(direct(&["--format", "clf"]).contains("expected json"));
+    assert!(direct(&["--nodes", "six"]).contains("8,4"));
+    assert!(direct(&["--nodes", "40"]).contains("from 2 to 16"));
+    assert!(direct(&["--camera", "fuji-velvia-50", "--max-de", "1e-6"]).contains("the nearest had"));
+    assert!(refused(folder, &["bake", "--format", "json"]).contains("--form direct"));
+    assert!(refused(folder, &["bake", "--nodes", "6"]).contains("--form direct"));
+}
+
+#[test]
+fn a_quick_bake_is_the_same_table_and_says_what_it_lacks() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let said = done(folder, &["bake", "--quick", "--size", "9", "--out", "quick"]);
+    assert!(said.contains("not certified"), "{said}");
+    assert_eq!(files(&folder.join("quick")), ["look.cube", "look.toml"]);
+    done(folder, &["bake", "--size", "9", "--out", "slow"]);
+    let table = |folder_name: &str| -> Vec<String> {
+        let text = fs::read_to_string(folder.join(folder_name).join("look.cube")).unwrap();
+        assert_eq!(text.contains("not certified"), folder_name == "quick");
+        text.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect()
+    };
+    assert_eq!(table("quick"), table("slow"));
+    assert!(refused(folder, &["bake", "--quick", "--max-de", "1"]).contains("--max-de"));
+}
+
+#[test]
 fn certificates_are_printed() {
     let folder = tempfile::tempdir().unwrap();
     let text = done(folder.path(), &["certify", "--camera", "fuji-velvia-50", "--colours", "1024"]);
-    for form in ["the talk's 32^3", "plain 33^3", "structured 16^3", "structured 32^3"] {
+    for form in ["the talk's 32^3", "plain 33^3", "structured 16^3", "structured 32^3", "direct 10 + 5"] {
         assert!(text.contains(form), "{text}");
     }
     assert!(done(folder.path(), &["certify", "--buffers"]).contains("7e3"));

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use crate::error::{Error, Kind};
 use crate::lut3d::{Lut3d, first_not_finite, node_count, node_of};
+use crate::pixels::{Channels, PixelMap, PixelsMut};
 use crate::shaper::Shaper;
 
 /// Fills a table of `size` nodes a side with `f` at the scene-linear colours of its nodes, on all threads.
@@ -47,6 +48,26 @@ pub fn bake_coordinates(
     along_axis(size, |coordinate| coordinate, f, progress)
 }
 
+/// Fills a table of `size` nodes a side by mapping rows of nodes through a compiled form, on all threads: as fast as the form maps
+/// pictures. `at` gives the scene-linear colour for coordinates from 0 to 1.
+///
+/// # Errors
+///
+/// If `size` is out of bounds, or the form yields a value that is not finite.
+pub fn bake_form(size: usize, at: impl Fn([f64; 3]) -> [f64; 3] + Sync, form: &impl PixelMap) -> Result<Lut3d, Error> {
+    let mut entries = vec![[0.0; 3]; node_count(size)?];
+    let place = |i: usize| i as f64 / (size - 1) as f64;
+    entries.par_chunks_mut(size).enumerate().for_each(|(row, nodes)| {
+        let (green, blue) = (place(row % size), place(row / size));
+        for (red, node) in nodes.iter_mut().enumerate() {
+            *node = at([place(red), green, blue]).map(|v| v as f32);
+        }
+    });
+    let rows = [size, size * size];
+    form.map_in_place(&mut PixelsMut::new(entries.as_flattened_mut(), Channels::Rgb, rows)?);
+    Lut3d::new(size, entries)
+}
+
 fn along_axis(
     size: usize,
     value_at: impl Fn(f64) -> f64,
@@ -76,7 +97,7 @@ fn along_axis(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Interpolation;
+    use crate::{Interpolation, PlainLut};
     use std::sync::Mutex;
 
     fn shaper() -> Shaper {
@@ -85,6 +106,20 @@ mod tests {
 
     fn look([r, g, b]: [f64; 3]) -> [f64; 3] {
         [r / (r + 0.18), (g * b).sqrt(), (b + 0.1 * r).ln_1p()]
+    }
+
+    #[test]
+    fn a_form_is_baked_as_it_maps_pixels() {
+        let form = PlainLut::new(shaper(), bake(5, &shaper(), look, |_| {}).unwrap(), Interpolation::Tetrahedral);
+        let at = |t: [f64; 3]| [4.0 * t[0], t[1], 0.5 * t[2]];
+        let table = bake_form(6, at, &form).unwrap();
+        for (index, entry) in table.entries().iter().enumerate() {
+            let coordinates = node_of(index, 6).map(|i| i as f64 / 5.0);
+            let pixel = form.apply(at(coordinates).map(|v| v as f32));
+            // Whole rows may be rounded otherwise than single pixels.
+            assert!(entry.iter().zip(pixel).all(|(a, b)| (a - b).abs() < 1e-6), "{entry:?} {pixel:?}");
+        }
+        assert!(bake_form(1, at, &form).is_err());
     }
 
     #[test]

@@ -58,7 +58,7 @@ mod scene_sampler;
 mod shaper;
 mod storage;
 
-pub use bake::{bake, bake_coordinates};
+pub use bake::{bake, bake_coordinates, bake_form};
 pub use certificate::{
     Band, Certificate, ColourSet, Fall, Folds, HueSteps, Law, Maps, NeutralAxis, Samples, Search, SetDeviation, certify,
 };

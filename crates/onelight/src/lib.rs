@@ -17,6 +17,7 @@
 //! Files (all text comes in as `&str`), grain and halation. Keys in square brackets are resolved in REFERENCES.md at the top
 //! of the repository.
 
+mod bake;
 mod direct;
 mod error;
 mod process;

@@ -73,15 +73,21 @@ impl Reference {
         let output = process.output_space.space();
         let basis = Basis::new(process.reconstruction)?;
         let own_grey = PerLayer::all(film.mid_grey()?);
-        let camera = process.dyes.amounts(&film, own_grey)?;
+        // What takes longest, side by side.
+        let of_print = |print: &Stock| -> Result<_, Error> { Ok(process.dyes.amounts(print, print_mid_grey(print)?)?) };
+        let (camera, paper) =
+            rayon::join(|| process.dyes.amounts(&film, own_grey), || print.as_ref().map(of_print).transpose());
+        let (camera, paper) = (camera?, paper?);
         let shown = print.as_ref().unwrap_or(&film);
         let projection = Projection::new(shown.dyes_on(SpectralShape::VISIBLE)?, process.projector, &output)?;
         let mid_grey = match print {
             Some(_) => own_grey,
             None => reversal_target(process.aim, &film, own_grey, camera.as_ref(), &projection)?,
         };
-        let print = match &print {
-            Some(print) => Some(PrintStep::new(process, &film, print, &camera, mid_grey, &projection)?),
+        let print = match print.as_ref().zip(paper) {
+            Some((print, paper)) => {
+                Some(PrintStep::new(process, &film, (print, paper), &camera, mid_grey, &projection)?)
+            }
             None => None,
         };
         let white = Chromaticity::black_body_6500_k();
@@ -253,12 +259,11 @@ impl PrintStep {
     fn new(
         process: &Process,
         negative: &Stock,
-        print: &Stock,
+        (print, curves): (&Stock, PerLayer<AmountCurve>),
         camera: &PerLayer<AmountCurve>,
         mid_grey: PerLayer<LogExposure>,
         projection: &Projection,
     ) -> Result<Self, Error> {
-        let curves = process.dyes.amounts(print, print_mid_grey(print)?)?;
         let target = print_target(process.aim, print, curves.as_ref(), projection)?;
         let grey = camera.as_ref().zip_map(mid_grey, AmountCurve::amount);
         let duplication = Duplication::new(negative, print, process.printer())?;

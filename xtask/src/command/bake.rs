@@ -1,10 +1,10 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use clap::Args;
 use onelight::lut::{Certificate, Deviation, Law, Search, Storage, deviation};
-use onelight::{Entries, Process, Reference, TableCoding, TransferCurve, Word, WorkingSpace};
+use onelight::{DirectSettings, Entries, Nodes, Process, Reference, TableCoding, TransferCurve, Word, WorkingSpace};
 use serde_json::json;
 
 use crate::certificate::{Measure, in_words, to_six_stops};
@@ -46,9 +46,15 @@ pub(crate) struct Arguments {
     /// Files to write, comma-separated [default: cube for plain, clf for structured]
     #[arg(long, value_delimiter = ',', value_name = "FORMATS")]
     format: Vec<Format>,
-    /// Choose size and storage: the smallest structured table whose certified maximum is at most X
-    #[arg(long, value_name = "X", conflicts_with_all = ["size", "storage", "coding", "shaper", "stops", "entries"])]
+    /// Exponentials of the direct form: of the projection, and of the print's exposure [default: 10,5]
+    #[arg(long, value_name = "P[,D]", value_parser = nodes)]
+    nodes: Option<Nodes>,
+    /// Choose the smallest structured table, or with --form direct the fewest exponentials, whose certified maximum is at most X
+    #[arg(long, value_name = "X", conflicts_with_all = ["size", "storage", "coding", "shaper", "stops", "entries", "nodes"])]
     max_de: Option<f64>,
+    /// Write the LUT alone, at once: no certificate, no preview
+    #[arg(long, conflicts_with_all = ["max_de", "scene"])]
+    quick: bool,
     /// Pictures to measure on, and to fit the range of a plain table to
     #[arg(long, num_args = 1.., value_name = "EXR")]
     scene: Vec<PathBuf>,
@@ -73,24 +79,31 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let recipe = clock.time("choose", || recipe(arguments, &film, &process))?;
     let formats = formats(arguments, recipe.form)?;
     let compiled = clock.time("bake", || Compiled::new(&film, &process, &recipe, scene.as_deref()))?;
-    let measured = clock.time("certify", || Measured::new(&film, &process, &compiled, &formats, scene.as_deref()))?;
+    let measured = match arguments.quick {
+        true => None,
+        false => Some(clock.time("certify", || Measured::new(&film, &process, &compiled, &formats, scene.as_deref()))?),
+    };
     let folder = match &arguments.out {
         Some(folder) => folders::make(folder)?,
         None => folders::output(&process.name())?,
     };
-    let export = Export { process: &process, compiled: &compiled, comments: measured.comments(&process, &compiled) };
+    let export =
+        Export { process: &process, compiled: &compiled, comments: comments(&process, &compiled, measured.as_ref()) };
     let mut files = WholeSet::in_folder(&folder);
-    let mut json = json(arguments, &process, &recipe, &compiled, &measured);
+    let mut json = json(arguments, &process, &recipe, &compiled, measured.as_ref());
     clock.time("write", || -> Result<()> {
         for format in &formats {
             export.add(*format, &mut files)?;
         }
         files.add("look.toml", process.to_toml().into_bytes());
-        files.add("look.json", serde_json::to_vec_pretty(&json)?);
+        if !arguments.quick {
+            files.add("look.json", serde_json::to_vec_pretty(&json)?);
+        }
         Ok(())
     })?;
-    let preview = clock.time("preview", || preview::sheet(&process, &compiled))?;
-    files.add("preview.png", preview);
+    if !arguments.quick {
+        files.add("preview.png", clock.time("preview", || preview::sheet(&process, &compiled))?);
+    }
     let written = clock.time("save", || files.write())?;
     let shown: Vec<String> = written.iter().map(|file| folders::shown(file)).collect();
     let mut text = String::new();
@@ -101,8 +114,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     for note in &notes {
         let _ = writeln!(text, "  note: {note}");
     }
-    text.push_str(&measured.text());
-    for sentence in measured.warnings(arguments.max_de) {
+    match &measured {
+        Some(measured) => text.push_str(&measured.text()),
+        None => text.push_str("not certified: how far it lies from the film was not measured (leave out --quick)\n"),
+    }
+    for sentence in measured.iter().flat_map(|measured| measured.warnings(arguments.max_de)) {
         let _ = writeln!(text, "warning: {sentence}");
     }
     let _ = writeln!(text, "time: {}", clock.sentence());
@@ -118,11 +134,29 @@ fn stops(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "expected a number of stops from 1 to 40".to_owned())
 }
 
-fn recipe(arguments: &Arguments, film: &Reference, process: &Process) -> Result<Recipe> {
-    if let Some(limit) = arguments.max_de {
-        return smallest_under(film, process, limit);
+fn nodes(text: &str) -> Result<Nodes, String> {
+    let counts: Result<Vec<usize>, _> = text.split(',').map(str::parse).collect();
+    let usual = DirectSettings::default().nodes;
+    match (counts.as_deref(), usual) {
+        (Ok(&[projection, duplication]), _) | (Ok(&[projection]), Nodes::Counts { duplication, .. }) => {
+            Ok(Nodes::Counts { projection, duplication })
+        }
+        _ => Err("expected one or two numbers from 2 to 16, such as 8 or 8,4".to_owned()),
     }
+}
+
+fn recipe(arguments: &Arguments, film: &Reference, process: &Process) -> Result<Recipe> {
     let usual = Recipe::usual(arguments.form);
+    if arguments.nodes.is_some() && arguments.form != Form::Direct {
+        bail!("--nodes: the {} form has no exponentials, expected --form direct with it", arguments.form.word());
+    }
+    match arguments.max_de {
+        Some(limit) if arguments.form == Form::Direct => {
+            return Ok(Recipe { nodes: Nodes::UnderMaxDe(limit), ..usual });
+        }
+        Some(limit) => return smallest_under(film, process, limit),
+        None => {}
+    }
     Ok(Recipe {
         size: arguments.size.map_or_else(|| usual_size(arguments, usual.size), usize::from),
         shaper: arguments.shaper,
@@ -130,6 +164,7 @@ fn recipe(arguments: &Arguments, film: &Reference, process: &Process) -> Result<
         entries: arguments.entries.unwrap_or(usual.entries),
         storage: arguments.storage,
         coding: arguments.coding,
+        nodes: arguments.nodes.unwrap_or(usual.nodes),
         ..usual
     })
 }
@@ -145,18 +180,12 @@ fn usual_size(arguments: &Arguments, usual: usize) -> usize {
 }
 
 fn formats(arguments: &Arguments, form: Form) -> Result<Vec<Format>> {
-    let usual = match form {
-        Form::Plain => Format::Cube,
-        Form::Structured => Format::Clf,
-    };
-    let mut formats = if arguments.format.is_empty() { vec![usual] } else { arguments.format.clone() };
+    let mut formats = if arguments.format.is_empty() { vec![Format::usual(form)] } else { arguments.format.clone() };
     formats.dedup();
-    if form == Form::Structured
-        && let Some(format) = formats.iter().find(|format| **format != Format::Clf)
-    {
-        return Err(format.takes_no_structured_form());
+    match formats.iter().find(|format| !format.holds(form)) {
+        Some(format) => Err(format.cannot_hold(form)),
+        None => Ok(formats),
     }
-    Ok(formats)
 }
 
 /// What the files are worth: certificates of their numbers as written, and the deviation on the user's own pictures.
@@ -191,7 +220,7 @@ impl Measured {
         let first = &written[0];
         // A plain table takes what is inside its own primaries only.
         let rec2020 = match compiled {
-            Compiled::Structured(_) => {
+            Compiled::Structured(_) | Compiled::Direct(_) => {
                 let samples = measure.samples(&Law::default(), WorkingSpace::Rec2020)?;
                 Some(measure.certify_in(WorkingSpace::Rec2020, &samples, first, Search::Ascent)?)
             }
@@ -234,31 +263,36 @@ impl Measured {
     fn warnings(&self, max_de: Option<f64>) -> Vec<String> {
         self.srgb().failures(max_de.unwrap_or(WARN_ABOVE))
     }
+}
 
-    /// A few lines for formats that hold comments.
-    fn comments(&self, process: &Process, compiled: &Compiled) -> Vec<String> {
-        let (mean, max) = to_six_stops(self.srgb());
-        let certificate = self.srgb();
-        vec![
-            format!(
-                "onelight {}: {}, {} aim, {}",
-                env!("CARGO_PKG_VERSION"),
-                process.name(),
-                process.aim.word(),
-                compiled.describe()
-            ),
-            format!(
-                "input: scene-linear {}, 18 % grey at 0.18; output: display {}, {} coding",
-                process.input_space.word(),
-                process.output_space.word(),
-                process.output_coding.word()
-            ),
+/// A few lines for formats that hold comments.
+fn comments(process: &Process, compiled: &Compiled, measured: Option<&Measured>) -> Vec<String> {
+    let worth = match measured.map(Measured::srgb) {
+        Some(certificate) => {
+            let (mean, max) = to_six_stops(certificate);
             format!(
                 "CIEDE2000 from the exact film, -10 to +10 stops: mean {:.3}, p99 {:.3}, max {:.3}; to +6 stops: mean {mean:.3}, max {max:.3}",
                 certificate.overall.mean, certificate.overall.p99, certificate.max_found
-            ),
-        ]
-    }
+            )
+        }
+        None => "not certified".to_owned(),
+    };
+    vec![
+        format!(
+            "onelight {}: {}, {} aim, {}",
+            env!("CARGO_PKG_VERSION"),
+            process.name(),
+            process.aim.word(),
+            compiled.describe()
+        ),
+        format!(
+            "input: scene-linear {}, 18 % grey at 0.18; output: display {}, {} coding",
+            process.input_space.word(),
+            process.output_space.word(),
+            process.output_coding.word()
+        ),
+        worth,
+    ]
 }
 
 fn on_scene(film: &Reference, written: &Applied, colours: &[[f64; 3]]) -> Result<Deviation> {
@@ -273,23 +307,34 @@ fn json(
     process: &Process,
     recipe: &Recipe,
     compiled: &Compiled,
-    measured: &Measured,
+    measured: Option<&Measured>,
 ) -> serde_json::Value {
-    let limit = arguments.max_de.unwrap_or(WARN_ABOVE);
-    json!({
+    let mut json = json!({
         "process": process,
         "form": recipe.form,
-        "size": recipe.size,
-        "storage": recipe.storage.word(),
-        "coding": recipe.coding.word(),
         "description": compiled.describe(),
+        "certified": measured.is_some(),
+    });
+    if let Some(table) = compiled.table() {
+        json["size"] = table.size().into();
+        json["storage"] = recipe.storage.word().into();
+        json["coding"] = recipe.coding.word().into();
+    }
+    let Some(measured) = measured else { return json };
+    let limit = arguments.max_de.unwrap_or(WARN_ABOVE);
+    let (mid_grey, largest, stops) = measured.tint;
+    let worth = json!({
         "unit": "CIEDE2000",
         "certificate": measured.srgb(),
         "certificates": measured.files.iter().map(|(f, c)| (f.word(), json!(c))).collect::<serde_json::Map<_, _>>(),
         "certificate_rec2020": measured.rec2020,
         "scene": measured.scene,
-        "tint": { "unit": "CIELAB C*", "mid_grey": measured.tint.0, "largest": measured.tint.1, "stops": measured.tint.2 },
+        "tint": { "unit": "CIELAB C*", "mid_grey": mid_grey, "largest": largest, "stops": stops },
         "limit": limit,
         "failures": measured.srgb().failures(limit),
-    })
+    });
+    if let (Some(json), serde_json::Value::Object(worth)) = (json.as_object_mut(), worth) {
+        json.extend(worth);
+    }
+    json
 }

@@ -3,7 +3,7 @@ use std::fmt::Write as _;
 use anyhow::Result;
 use clap::Args;
 use onelight::lut::{Certificate, Law, Search, Storage};
-use onelight::{Aim, Entries, Process, TableCoding, Word, WorkingSpace};
+use onelight::{Aim, Entries, Nodes, Process, TableCoding, Word, WorkingSpace};
 use serde_json::{Value, json};
 
 use crate::certificate::{Measure, in_words, to_six_stops};
@@ -44,6 +44,10 @@ fn colours(text: &str) -> Result<usize, String> {
 /// The forms that are compared: name, recipe.
 fn forms() -> Vec<(&'static str, Recipe)> {
     let plain = Recipe { storage: Storage::F16, entries: Entries::Fitted, ..Recipe::usual(Form::Plain) };
+    let counts = |projection, duplication| {
+        let nodes = Nodes::Counts { projection, duplication };
+        Recipe { nodes, ..Recipe::usual(Form::Direct) }
+    };
     let structured = Recipe { storage: Storage::F16, ..Recipe::usual(Form::Structured) };
     vec![
         ("the talk's 32^3", Recipe { size: 32, shaper: ShaperChoice::Gotanda, entries: Entries::Sampled, ..plain }),
@@ -52,6 +56,9 @@ fn forms() -> Vec<(&'static str, Recipe)> {
         ("structured 16^3, f16", Recipe { size: 16, ..structured }),
         ("structured 32^3, f16", structured),
         ("structured 32^3, f32", Recipe { storage: Storage::F32, ..structured }),
+        ("direct 6 + 3", counts(6, 3)),
+        ("direct 8 + 4", counts(8, 4)),
+        ("direct 10 + 5", counts(10, 5)),
         ("structured 32^3, 10 bit", Recipe { storage: Storage::Unorm10, coding: TableCoding::Display, ..structured }),
     ]
 }

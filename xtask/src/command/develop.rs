@@ -77,6 +77,8 @@ enum Form {
     Plain,
     /// A 32^3 table whose axes are the film's curves, as `bake --form structured` writes it
     Structured,
+    /// No table: curves and a few exponentials, as `bake --form direct` writes them
+    Direct,
 }
 
 /// What the output's name asks for.
@@ -268,6 +270,7 @@ fn develop(
         }
         Form::Plain => Recipe::usual(compiled::Form::Plain),
         Form::Structured => Recipe::usual(compiled::Form::Structured),
+        Form::Direct => Recipe::usual(compiled::Form::Direct),
     };
     let table = Compiled::new(film, process, &recipe, None)?;
     if let Some(max) = table.max() {

@@ -1,6 +1,6 @@
 //! The smallest table that keeps a promise.
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use onelight::lut::{Samples, Search, Storage};
 use onelight::{Process, Reference, TableCoding};
 
@@ -34,8 +34,9 @@ pub(crate) fn smallest_under(film: &Reference, process: &Process, limit: f64) ->
             // Fitted once, then stored in each way.
             let recipe = Recipe { size, coding, ..Recipe::usual(Form::Structured) };
             let exact = Compiled::new(film, process, &recipe, None)?;
+            let table = exact.table().context("a structured look has a table")?;
             for storage in stored {
-                let compiled = exact.with_table(storage.stored(exact.table())?);
+                let compiled = exact.with_table(storage.stored(table)?);
                 let quick = measure.certify(&samples, |rgb| compiled.apply(rgb), Search::SamplesOnly)?;
                 nearest = nearest.min(quick.max_found);
                 // An ascent only finds more.

@@ -1,12 +1,10 @@
 //! Codings that a table takes instead of scene-linear light: those of cameras, displays and engines.
 
 use anyhow::Result;
-use onelight::lut::{Lut3d, bake_coordinates};
+use onelight::lut::Lut3d;
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Chromaticity, RgbSpace, SceneCurve};
 use onelight::{Process, Reference};
-
-use crate::progress::bar;
 
 /// What the coordinates of a table stand for.
 #[derive(Debug, Clone)]
@@ -69,11 +67,7 @@ impl Coordinate {
 
     /// The table of a film in this coding.
     pub(crate) fn bake(&self, film: &Reference, size: usize) -> Result<Lut3d> {
-        let progress = bar("baking", size.pow(3) as u64);
-        let table =
-            bake_coordinates(size, |t| film.develop(self.decode(t)), |done| progress.set_position(done as u64))?;
-        progress.finish_and_clear();
-        Ok(table)
+        Ok(film.bake(size, |t| self.decode(t))?)
     }
 
     /// The brightest grey that the coding holds.

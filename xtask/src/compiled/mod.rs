@@ -7,17 +7,16 @@ mod shaper_fit;
 use anyhow::Result;
 use clap::ValueEnum;
 use onelight::lut::{
-    FitSample, FitSettings, Interpolation, Lut3d, PlainLut, SceneSampler, Shaper, Storage, StructuredLut, bake, fit,
+    Channels, DirectForm, FitSample, FitSettings, Interpolation, Lut3d, PixelMap, PixelsMut, PlainLut, SceneSampler,
+    Shaper, Storage, StructuredLut, fit,
 };
 use onelight::spectra::SceneCurve;
-use onelight::{Entries, Process, Reference, StructuredSettings, TableCoding};
+use onelight::{DirectSettings, Entries, Nodes, Process, Reference, StructuredSettings, TableCoding};
 use rayon::prelude::*;
 
 pub(crate) use choose::smallest_under;
 pub(crate) use coordinate::Coordinate;
 pub(crate) use shaper_fit::{Fitted, fitted_to};
-
-use crate::progress::bar;
 
 /// The forms a look can be baked to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, serde::Serialize)]
@@ -27,6 +26,15 @@ pub(crate) enum Form {
     Plain,
     /// The film's own curves as axes of the table: any range, several times as accurate
     Structured,
+    /// No table: the film's curves and a few exponentials; any range, most accurate
+    Direct,
+}
+
+impl Form {
+    /// Its name on the command line.
+    pub(crate) fn word(self) -> String {
+        self.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
+    }
 }
 
 /// The shapers of the plain form.
@@ -80,6 +88,8 @@ pub(crate) struct Recipe {
     pub(crate) entries: Entries,
     pub(crate) storage: Storage,
     pub(crate) coding: TableCoding,
+    /// The exponentials of a direct form.
+    pub(crate) nodes: Nodes,
 }
 
 impl Recipe {
@@ -88,9 +98,11 @@ impl Recipe {
         let (size, entries) = match form {
             Form::Plain => (33, Entries::Sampled),
             Form::Structured => (32, Entries::Fitted),
+            Form::Direct => (0, Entries::Fitted),
         };
         let (storage, coding) = (Storage::F32, TableCoding::Density);
-        Self { form, size, shaper: ShaperChoice::Log2, stops: None, entries, storage, coding }
+        let nodes = DirectSettings::default().nodes;
+        Self { form, size, shaper: ShaperChoice::Log2, stops: None, entries, storage, coding, nodes }
     }
 }
 
@@ -100,6 +112,8 @@ fn finite(v: f32) -> f64 {
     if v.is_nan() { 0.0 } else { f64::from(v).clamp(-limit, limit) }
 }
 
+/// Pixels of one task.
+const BLOCK: usize = 4096;
 /// Colours for each node that a plain table is fitted to.
 const FIT_SAMPLES_PER_NODE: usize = 4;
 
@@ -129,6 +143,8 @@ pub(crate) enum Compiled {
     Coded { table: Lut3d, coordinate: Box<Coordinate> },
     /// Scene-linear light in.
     Structured(Box<StructuredLut>),
+    /// Scene-linear light in; no table.
+    Direct(Box<DirectForm>),
 }
 
 impl Compiled {
@@ -150,10 +166,7 @@ impl Compiled {
                     (_, Some(colours)) => fitted_to(film, &Fitted::Scene(colours))?,
                     (_, None) => fitted_to(film, &Fitted::Look { stops: recipe.stops })?,
                 };
-                let progress = bar("baking", recipe.size.pow(3) as u64);
-                let table =
-                    bake(recipe.size, &shaper, |rgb| film.develop(rgb), |done| progress.set_position(done as u64))?;
-                progress.finish_and_clear();
+                let table = film.bake(recipe.size, |t| t.map(|t| shaper.decode(t)))?;
                 let table = match recipe.entries {
                     Entries::Sampled => table,
                     Entries::Fitted => fitted_plain(film, &shaper, &table)?,
@@ -172,6 +185,10 @@ impl Compiled {
                 let table = recipe.storage.stored(&lut.parts().table)?;
                 Ok(Self::Structured(Box::new(lut.with_table(table))))
             }
+            Form::Direct => {
+                let direct = film.direct(&DirectSettings { nodes: recipe.nodes })?;
+                Ok(Self::Direct(Box::new(direct)))
+            }
         }
     }
 
@@ -181,13 +198,14 @@ impl Compiled {
             Self::Plain(lut) => lut.apply(linear),
             Self::Coded { table, .. } => table.apply(self.coordinates_for_file(linear), Interpolation::Tetrahedral),
             Self::Structured(lut) => lut.apply(linear),
+            Self::Direct(direct) => direct.apply(linear),
         }
     }
 
     /// What a file of this look expects for scene-linear RGB: the light itself, or its coding.
     pub(crate) fn coordinates_for_file(&self, linear: [f32; 3]) -> [f32; 3] {
         match self {
-            Self::Plain(_) | Self::Structured(_) => linear,
+            Self::Plain(_) | Self::Structured(_) | Self::Direct(_) => linear,
             Self::Coded { coordinate, .. } => coordinate.encode(linear.map(finite)).map(|v| v as f32),
         }
     }
@@ -198,15 +216,26 @@ impl Compiled {
             Self::Plain(lut) => Self::Plain(PlainLut::new(*lut.shaper(), table, lut.interpolation())),
             Self::Coded { coordinate, .. } => Self::Coded { table, coordinate: coordinate.clone() },
             Self::Structured(lut) => Self::Structured(Box::new(lut.with_table(table))),
+            Self::Direct(direct) => Self::Direct(direct.clone()),
         }
     }
 
-    /// Its table, as stored.
-    pub(crate) fn table(&self) -> &Lut3d {
+    /// Which form it is.
+    pub(crate) fn form(&self) -> Form {
         match self {
-            Self::Plain(lut) => lut.table(),
-            Self::Coded { table, .. } => table,
-            Self::Structured(lut) => &lut.parts().table,
+            Self::Plain(_) | Self::Coded { .. } => Form::Plain,
+            Self::Structured(_) => Form::Structured,
+            Self::Direct(_) => Form::Direct,
+        }
+    }
+
+    /// Its table, as stored; the direct form has none.
+    pub(crate) fn table(&self) -> Option<&Lut3d> {
+        match self {
+            Self::Plain(lut) => Some(lut.table()),
+            Self::Coded { table, .. } => Some(table),
+            Self::Structured(lut) => Some(&lut.parts().table),
+            Self::Direct(_) => None,
         }
     }
 
@@ -216,6 +245,12 @@ impl Compiled {
             Self::Plain(lut) => lut.apply_to_slice(pixels),
             Self::Coded { .. } => pixels.par_iter_mut().for_each(|rgb| *rgb = self.apply(*rgb)),
             Self::Structured(lut) => lut.apply_to_slice(pixels),
+            Self::Direct(direct) => pixels.par_chunks_mut(BLOCK).for_each(|block| {
+                let width = block.len();
+                if let Ok(mut row) = PixelsMut::new(block.as_flattened_mut(), Channels::Rgb, [width, 1]) {
+                    direct.map_in_place(&mut row);
+                }
+            }),
         }
     }
 
@@ -224,7 +259,7 @@ impl Compiled {
         match self {
             Self::Plain(lut) => Some(lut.shaper().max()),
             Self::Coded { coordinate, .. } => Some(coordinate.max()),
-            Self::Structured(_) => None,
+            Self::Structured(_) | Self::Direct(_) => None,
         }
     }
 
@@ -245,6 +280,13 @@ impl Compiled {
             Self::Structured(lut) => {
                 let stages = if lut.parts().mix.is_some() { "camera and print curves" } else { "camera curves" };
                 format!("structured {}^3, {stages}, any scene light", lut.parts().table.size())
+            }
+            Self::Direct(direct) => {
+                let parts = direct.parts();
+                let projection = parts.projection.terms().len();
+                let print =
+                    parts.print.as_ref().map(|print| format!(" and {} for the print", print.exposure.terms().len()));
+                format!("direct, {projection} exponentials{}, any scene light", print.unwrap_or_default())
             }
         }
     }

@@ -1,8 +1,9 @@
 //! Offset and range of the plain form's shaper, fitted to a look or to a scene.
 
 use anyhow::Result;
-use onelight::Reference;
-use onelight::lut::{Interpolation, PlainLut, SceneSampler, Shaper, bake};
+use onelight::lut::{DirectForm, Interpolation, PlainLut, SceneSampler, Shaper, bake_form};
+use onelight::spectra::{DisplayDifference, ciede2000};
+use onelight::{DirectSettings, Nodes, Reference};
 use rayon::prelude::*;
 
 /// What a shaper is fitted to.
@@ -49,9 +50,11 @@ pub(crate) fn fitted_to(film: &Reference, target: &Fitted) -> Result<Shaper> {
         }
     };
     let trial = Trial::new(film, &colours)?;
+    let tried: Vec<Result<(f64, f64)>> =
+        ranges.par_iter().map(|&max| golden(|exponent| trial.error(exponent, max))).collect();
     let mut best: Option<(f64, Shaper)> = None;
-    for max in ranges {
-        let (error, exponent) = golden(|exponent| trial.error(exponent, max))?;
+    for (max, tried) in ranges.into_iter().zip(tried) {
+        let (error, exponent) = tried?;
         if best.as_ref().is_none_or(|(least, _)| error < *least) {
             best = Some((error, shaper(exponent, max)?));
         }
@@ -89,22 +92,33 @@ fn golden(f: impl Fn(f64) -> Result<f64>) -> Result<(f64, f64)> {
 /// Colours and what the film makes of them.
 struct Trial<'a> {
     film: &'a Reference,
-    pairs: Vec<([f64; 3], [f64; 3])>,
+    /// Stands for the film: what it misses is small beside what the tables do.
+    baking: DirectForm,
+    difference: DisplayDifference,
+    /// Scene-linear, and what the film makes of it in CIELAB.
+    pairs: Vec<([f32; 3], [f64; 3])>,
 }
 
 impl<'a> Trial<'a> {
     fn new(film: &'a Reference, colours: &[[f64; 3]]) -> Result<Self> {
-        Ok(Self { film, pairs: colours.par_iter().map(|&rgb| (rgb, film.develop_linear(rgb))).collect() })
+        let baking = film.direct(&DirectSettings { nodes: Nodes::Grid { step_nm: 10 } })?;
+        let difference = film.difference()?;
+        let pairs = colours.par_iter().map(|&rgb| {
+            let linear = baking.apply(rgb.map(|v| v as f32)).map(|v| film.coding().decode(f64::from(v)));
+            (rgb.map(|v| v as f32), difference.lab(linear))
+        });
+        let pairs = pairs.collect();
+        Ok(Self { film, baking, difference, pairs })
     }
 
     /// Mean difference of a small table, and a hundredth of the largest: clipped colours are few.
     fn error(&self, exponent: f64, max: f64) -> Result<f64> {
         let shaper = shaper(exponent, max)?;
-        let table = bake(TRIAL_SIZE, &shaper, |rgb| self.film.develop(rgb), |_| {})?;
+        let table = bake_form(TRIAL_SIZE, |t| t.map(|t| shaper.decode(t)), &self.baking)?;
         let lut = PlainLut::new(shaper, table, Interpolation::Tetrahedral);
-        let difference = self.film.difference()?;
-        let read = |rgb: [f64; 3]| lut.apply(rgb.map(|v| v as f32)).map(|v| self.film.coding().decode(f64::from(v)));
-        let all: Vec<f64> = self.pairs.par_iter().map(|(rgb, exact)| difference.between(*exact, read(*rgb))).collect();
+        let coding = self.film.coding();
+        let read = |rgb: [f32; 3]| self.difference.lab(lut.apply(rgb).map(|v| coding.decode(f64::from(v))));
+        let all: Vec<f64> = self.pairs.par_iter().map(|(rgb, exact)| ciede2000(*exact, read(*rgb))).collect();
         Ok(all.iter().sum::<f64>() / all.len() as f64 + all.iter().copied().fold(0.0, f64::max) / 100.0)
     }
 }

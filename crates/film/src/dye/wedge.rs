@@ -1,3 +1,5 @@
+use std::f64::consts::LN_10;
+
 use nalgebra::{Matrix3, Vector3};
 use onelight_spectra::{SpectralDistribution, SpectralShape};
 
@@ -30,12 +32,17 @@ pub(super) fn amounts(stock: &Stock, mid_grey: PerLayer<LogExposure>) -> Result<
     let steps = ((to - from) / STEP).ceil().max(1.0);
     let offsets: Vec<f64> = (0..=steps as usize).map(|i| from + (to - from) * i as f64 / steps).collect();
     let mut found: [Vec<f64>; 3] = Default::default();
-    let mut amount = Vector3::repeat(0.5);
+    let (mut amount, mut before) = (Vector3::repeat(0.5), None);
     for &offset in &offsets {
         let at = mid_grey.map(|h| LogExposure(h.0 + offset));
         let target = stock.characteristic().zip_map(at, |curve, h| curve.density(h).0);
         let target = Vector3::from(target.zip_map(base, |d, b| d + b).to_array());
-        amount = reader.unmix(target, amount).ok_or_else(|| Kind::Unmixing { stock: stock.id().to_owned(), offset })?;
+        // The curves go on as they went: a step less for Newton's method.
+        let straight_on = before.map_or(amount, |before: Vector3<f64>| 2.0 * amount - before);
+        let unmixed = reader.unmix(target, straight_on).or_else(|| reader.unmix(target, amount));
+        let unmixed = unmixed.ok_or_else(|| Kind::Unmixing { stock: stock.id().to_owned(), offset })?;
+        before = (offset > from).then_some(amount);
+        amount = unmixed;
         for (curve, a) in found.iter_mut().zip(amount.iter()) {
             curve.push(*a);
         }
@@ -79,7 +86,7 @@ impl Reader {
         let (mut passed, mut weighted) = (Vector3::zeros(), Matrix3::zeros());
         for (dye, base, response) in &self.rows {
             let dye = Vector3::from(*dye);
-            let light = Vector3::from(*response) * 10f64.powf(-(base + dye.dot(&amount)));
+            let light = Vector3::from(*response) * (-LN_10 * (base + dye.dot(&amount))).exp();
             passed += light;
             weighted += light * dye.transpose();
         }

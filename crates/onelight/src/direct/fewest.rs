@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use onelight_lut::{Certificate, DirectForm, Law, Maps, Samples, Search, certify};
 
 use super::fit::{fit, misses};
@@ -73,22 +73,27 @@ pub(super) fn under(film: &Reference, stages: &Stages, limit: f64) -> Result<Dir
 /// A film with what a certificate needs.
 struct Measure<'a> {
     film: &'a Reference,
+    /// Colours of the law are in sRGB primaries.
+    to_input: Matrix3<f64>,
     samples: Samples,
     luminance: Vector3<f64>,
 }
 
 impl<'a> Measure<'a> {
     fn new(film: &'a Reference) -> Result<Self, Error> {
-        let samples = Samples::new(&Law::default(), &[], |rgb| film.develop_linear(rgb), |_| {})?;
-        Ok(Self { film, samples, luminance: film.output().to_xyz()?.row(1).transpose() })
+        let to_input = film.to_srgb().try_inverse().unwrap_or_else(Matrix3::identity);
+        let exact = |rgb| film.develop_linear((to_input * Vector3::from(rgb)).data.0[0]);
+        let samples = Samples::new(&Law::default(), &[], exact, |_| {})?;
+        Ok(Self { film, to_input, samples, luminance: film.output().to_xyz()?.row(1).transpose() })
     }
 
     fn certify(&self, direct: &DirectForm, search: Search) -> Result<Certificate, Error> {
         let difference = self.film.difference()?;
+        let input = |rgb: [f64; 3]| (self.to_input * Vector3::from(rgb)).data.0[0];
         let maps = Maps {
-            reference: |rgb| self.film.develop_linear(rgb),
+            reference: |rgb| self.film.develop_linear(input(rgb)),
             candidate: |rgb: [f64; 3]| {
-                direct.apply(rgb.map(|v| v as f32)).map(|v| self.film.coding().decode(f64::from(v)))
+                direct.apply(input(rgb).map(|v| v as f32)).map(|v| self.film.coding().decode(f64::from(v)))
             },
             difference: |a: &[f64; 3], b: &[f64; 3]| difference.between(*a, *b),
             luminance: |v: &[f64; 3]| self.luminance.dot(&Vector3::from(*v)),

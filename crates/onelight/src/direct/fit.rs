@@ -16,9 +16,10 @@ const BLOCK: usize = 128;
 const STARTS: [f64; 4] = [1.0, 0.7, 0.5, 0.3];
 /// The norm of misses that is made small, and for how many steps at most: first of all starts, then of the best one.
 const BROAD: (i32, usize) = (2, 24);
-const FINE: [(i32, usize); 2] = [(4, 10), (12, 20)];
-/// The norm by which the best start is chosen.
+const FINE: [(i32, usize); 3] = [(2, 8), (4, 10), (12, 20)];
+/// The norm by which the best start is chosen, and of how many samples starts are fitted to one.
 const CHOICE: i32 = 12;
+const CHOICE_EVERY: usize = 3;
 /// Levenberg and Marquardt's damping: at first, divided and multiplied by this after a step that did or did not help.
 const DAMPING: f64 = 1e-3;
 const DAMPING_DOWN: f64 = 5.0;
@@ -28,11 +29,14 @@ const TRIES: usize = 6;
 const LEAST_GAIN: f64 = 1e-4;
 
 /// The sum of `count` exponentials nearest to `full` as seen by `samples`: neither rates nor weights need belong to a wavelength.
+/// Bound to wavelengths, as many terms miss two to six times as much: 8 for the projection of Velvia 50 by 0.16 dE instead of
+/// 0.03, 4 for the duplication of 5207 by 0.42 instead of 0.06.
 ///
 /// Levenberg and Marquardt's method (\[Marquardt1963\]) on the p-norm of the misses, with the power p raised in steps: few
 /// large misses count for more and more.
 pub(super) fn fit(full: &Sum, samples: &[Sample], count: usize) -> Sum {
-    let starts = STARTS.par_iter().map(|&exponent| descend(shared_out(full, count, exponent), samples, &[BROAD]));
+    let some: Vec<Sample> = samples.iter().copied().step_by(CHOICE_EVERY).collect();
+    let starts = STARTS.par_iter().map(|&exponent| descend(shared_out(full, count, exponent), &some, &[BROAD]));
     let starts: Vec<(f64, Sum)> = starts.map(|sum| (norm(&misses(&sum, samples), CHOICE), sum)).collect();
     let best = starts.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
     best.map_or_else(|| full.clone(), |(_, sum)| descend(sum, samples, &FINE))
@@ -109,21 +113,14 @@ impl Normal {
         let misses = misses(sum, samples);
         let most = misses.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         let blocks = samples.par_chunks(BLOCK).zip(misses.par_chunks(BLOCK)).map(|(samples, misses)| {
-            let (mut square, mut product) = (vec![0.0; n * n], vec![0.0; n]);
-            let mut rows = vec![0.0; 3 * n];
-            for (sample, miss) in samples.iter().zip(misses) {
-                let left = derivatives(sum, sample, (miss / most).powi(power / 2 - 1), &mut rows);
-                for (row, left) in rows.chunks_exact(n).zip(left) {
-                    for (a, &v) in row.iter().enumerate() {
-                        product[a] += v * left;
-                        // The upper triangle, row by row.
-                        for (to, w) in square[a * n + a..(a + 1) * n].iter_mut().zip(&row[a..]) {
-                            *to += v * w;
-                        }
-                    }
-                }
+            let mut rows = DMatrix::zeros(n, 3 * samples.len());
+            let mut left = DVector::zeros(3 * samples.len());
+            for (i, (sample, miss)) in samples.iter().zip(misses).enumerate() {
+                let mine = &mut rows.as_mut_slice()[3 * i * n..][..3 * n];
+                let found = derivatives(sum, sample, (miss / most).powi(power / 2 - 1), mine);
+                left.fixed_rows_mut::<3>(3 * i).copy_from_slice(&found);
             }
-            (DMatrix::from_vec(n, n, square), DVector::from_vec(product))
+            (&rows * rows.transpose(), rows * left)
         });
         let blocks: Vec<_> = blocks.collect();
         let zero = Self { square: DMatrix::zeros(n, n), product: DVector::zeros(n) };
@@ -140,7 +137,6 @@ impl Normal {
         for i in 0..square.nrows() {
             square[(i, i)] += damping * square[(i, i)] + floor;
         }
-        // Columns of the lower triangle are what was summed as rows of the upper.
         let step = square.cholesky()?.solve(&self.product);
         let moved = sum.0.iter().zip(step.as_slice().chunks_exact(NUMBERS)).map(|(term, step)| Term {
             rate: term.rate + Vector3::from_column_slice(&step[..3]),

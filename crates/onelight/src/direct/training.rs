@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use onelight_film::{AmountCurve, DyeAmount, LogExposure, PerLayer};
-use onelight_lut::SceneSampler;
+use onelight_lut::{DirectForm, SceneSampler};
 use onelight_spectra::{DisplayDifference, ciede2000};
 use rayon::prelude::*;
 
@@ -31,7 +31,7 @@ pub(super) struct Training {
 /// Exposures of the colours, in stops about mid grey: until every layer of every film is clear or full.
 const STOPS: (f64, f64) = (-10.0, 14.0);
 /// Colours.
-const COUNT: usize = 1536;
+const COUNT: usize = 1024;
 const SEED: u64 = 0x666d_6469_7231_3031;
 /// Difference that a miss of a whole print exposure counts for where the print hardly responds: keeps sums from falling to 0.
 const LEAST_SEEN: f64 = 3.0;
@@ -74,6 +74,35 @@ impl Training {
             .collect();
         let (first, last): (Vec<Option<Sample>>, Vec<Sample>) = samples.into_iter().unzip();
         Ok(Self { duplication: first.into_iter().collect(), projection: last })
+    }
+}
+
+/// Colours with what the film makes of them: to try forms on that were not fitted.
+pub(super) struct Probes<'a> {
+    film: &'a Reference,
+    difference: DisplayDifference,
+    /// In the film's input space, and display-linear.
+    colours: Vec<([f32; 3], [f64; 3])>,
+}
+
+const PROBES: usize = 256;
+
+impl<'a> Probes<'a> {
+    pub(super) fn new(film: &'a Reference) -> Result<Self, Error> {
+        let drawn: Vec<[f64; 3]> = SceneSampler::with_seed(STOPS.0..=STOPS.1, !SEED)?.take(PROBES).collect();
+        let from_srgb = film.to_srgb().try_inverse().unwrap_or_else(Matrix3::identity);
+        let colours = drawn.into_par_iter().enumerate().map(|(i, rgb)| {
+            let input = (from_srgb * Vector3::from(towards_the_edge(i, rgb))).data.0[0].map(|v| v as f32);
+            (input, film.develop_linear(input.map(f64::from)))
+        });
+        Ok(Self { film, difference: film.difference()?, colours: colours.collect() })
+    }
+
+    pub(super) fn largest_miss(&self, direct: &DirectForm) -> f64 {
+        let misses = self.colours.par_iter().map(|&(rgb, exact)| {
+            self.difference.between(exact, direct.apply(rgb).map(|v| self.film.coding().decode(f64::from(v))))
+        });
+        misses.reduce(|| 0.0, f64::max)
     }
 }
 

@@ -1,6 +1,8 @@
 //! Spectra for RGB values: step 3 of \[Gotanda2010\].
 
 mod boxes;
+#[cfg(test)]
+mod programme;
 mod slope;
 
 use std::sync::OnceLock;
@@ -45,7 +47,7 @@ pub struct Basis {
 }
 
 impl Basis {
-    /// The basis of a reconstruction. The standard one is solved once (tens of milliseconds) and kept.
+    /// The basis of a reconstruction. The standard one is a table.
     ///
     /// # Errors
     /// If the solver finds no basis; none of the reconstructions here fails.
@@ -55,7 +57,7 @@ impl Basis {
         let reflectance = match reconstruction {
             Reconstruction::Smooth => {
                 static SMOOTH: OnceLock<Result<[Vec<f64>; 3], Error>> = OnceLock::new();
-                SMOOTH.get_or_init(|| slope::least_non_negative(&sensors.rows)).clone()?
+                SMOOTH.get_or_init(slope::least_non_negative).clone()?
             }
             Reconstruction::PseudoInverse => slope::least(&sensors.rows)?,
             Reconstruction::BoxesBalanced => boxes::balanced(&sensors.rows)?,
