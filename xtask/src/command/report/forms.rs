@@ -11,7 +11,7 @@ use crate::compiled::{Compiled, Form, Recipe, ShaperChoice};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Kind {
-    /// The 32^3 table of [Gotanda2010].
+    /// The 32^3 table of \[Gotanda2010\].
     Talk,
     Plain,
     Structured,
