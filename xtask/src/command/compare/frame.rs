@@ -8,6 +8,7 @@ use onelight::Process;
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Basis, Chromaticity, Reconstruction, RgbSpace, color_checker};
 
+use crate::command::develop::exposure::Exposure;
 use crate::picture::{Band, Description, Limits, Source, open};
 use crate::{scene_colours, truth};
 
@@ -78,8 +79,8 @@ pub(super) fn chart_colours() -> Result<Vec<[f64; 3]>> {
     Ok(color_checker().iter().map(|patch| rgb(patch).data.0[0].map(|v| v.max(0.0))).collect())
 }
 
-/// A picture of the user's, small, its log average at mid grey.
-pub(super) fn user(path: &Path) -> Result<Frame> {
+/// A picture of the user's, small and exposed.
+pub(super) fn user(path: &Path, exposure: Exposure) -> Result<Frame> {
     let mut picture = open(path, &Limits::default())?;
     let Description { width, height, source, primaries, .. } = picture.description().clone();
     if source != Source::Exr {
@@ -106,8 +107,12 @@ pub(super) fn user(path: &Path) -> Result<Frame> {
     }
     let mean = |(sum, count): &(Vector3<f64>, f64)| (to_srgb * sum / count.max(1.0)).data.0[0].map(|v| v.max(0.0));
     let rgb: Vec<[f64; 3]> = sums.iter().map(mean).collect();
-    let average = log_average(&rgb)?.with_context(|| format!("{}: the picture holds no light", path.display()))?;
-    let rgb: Vec<[f32; 3]> = rgb.into_iter().map(|rgb| rgb.map(|v| (0.18 / average * v) as f32)).collect();
+    let no_light = || format!("{}: the picture holds no light to expose for", path.display());
+    let scale = match exposure {
+        Exposure::Stops(stops) => stops.exp2(),
+        Exposure::Auto => 0.18 / log_average(&rgb)?.with_context(no_light)?,
+    };
+    let rgb: Vec<[f32; 3]> = rgb.into_iter().map(|rgb| rgb.map(|v| (scale * v) as f32)).collect();
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
     Ok(Frame::new(stem.chars().map(plain).take(24).collect(), (size[0], size[1]), &rgb))

@@ -16,6 +16,7 @@ use onelight::Process;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
+use crate::command::develop::exposure::Exposure;
 use crate::progress::{Clock, bar};
 use crate::whole::WholeSet;
 use crate::{Report, folders};
@@ -30,6 +31,9 @@ pub(crate) struct Arguments {
     /// Scene-linear pictures to show the looks on, besides the fixture scene and the ColorChecker
     #[arg(value_name = "EXR")]
     pictures: Vec<PathBuf>,
+    /// Exposure of these pictures in stops, or auto: the log average comes to 0.18
+    #[arg(long, default_value = "0", value_name = "STOPS|auto", allow_hyphen_values = true)]
+    ev: Exposure,
     /// Sheets to make, comma-separated [default: all]
     #[arg(long, value_delimiter = ',', value_name = "NAMES")]
     sheets: Vec<String>,
@@ -53,7 +57,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     };
     let mut frames = vec![clock.time("scene", frame::scene)?, frame::chart()?];
     for path in &arguments.pictures {
-        let mut user = clock.time("read", || frame::user(path))?;
+        let mut user = clock.time("read", || frame::user(path, arguments.ev))?;
         if frames.iter().any(|frame| frame.name == user.name) {
             user.name = format!("{}_{}", user.name, frames.len());
         }

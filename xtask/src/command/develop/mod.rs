@@ -1,5 +1,5 @@
 mod bands;
-mod exposure;
+pub(crate) mod exposure;
 mod film;
 mod job;
 mod light;
