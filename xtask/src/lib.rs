@@ -1,0 +1,103 @@
+//! The onelight runner: `cargo xtask bake`, `develop`, `stocks`, `fixtures`. The only crate that touches files.
+
+mod buffers;
+mod certificate;
+mod command;
+mod compiled;
+mod direct_file;
+mod export;
+mod exposure;
+mod folders;
+mod likeness;
+mod look;
+mod picture;
+mod plot;
+mod preview;
+mod progress;
+mod scene;
+mod scene_colours;
+mod sheet;
+mod switches;
+mod truth;
+mod whole;
+
+use std::io::{self, ErrorKind, Write as _};
+use std::process::ExitCode;
+
+use anyhow::{Result, anyhow};
+use clap::{Parser, Subcommand};
+
+/// Film simulation for HDR pictures.
+#[derive(Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", version, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Bake a look into a LUT: look.cube, look.toml and a preview
+    Bake(command::bake::Arguments),
+    /// Say how far every baked form lies from the exact film
+    Certify(command::certify::Arguments),
+    /// Develop a picture: scene-linear EXR (or TIFF, PNG) in, film out
+    Develop(command::develop::Arguments),
+    /// Measure every form: speed against error as a page with plots and tables
+    Report(command::report::Arguments),
+    /// Time the forms on a graphics card beside a plain copy: target/onelight/gpu.json
+    GpuBench(command::gpu_bench::Arguments),
+    /// List the stocks, or show one with a plot of its curves
+    Stocks(command::stocks::Arguments),
+    /// Render the fixture scene, and measure what going through RGB costs
+    Fixtures(command::fixtures::Arguments),
+    /// Turn lux, lumen and kelvin into W/m^2 RGB, and say what a camera makes of it
+    Light(command::light::Arguments),
+    /// Put the looks and switches of the talk side by side: contact sheets and a page
+    Compare(command::compare::Arguments),
+    /// Check the layers of the workspace against ARCHITECTURE.md
+    Tidy(command::tidy::Arguments),
+}
+
+/// What a command says when it is done: text for people, or one JSON object for scripts.
+struct Report {
+    text: String,
+    json: serde_json::Value,
+    as_json: bool,
+}
+
+/// Runs what the command line asks for; 2 where it failed, with one sentence on the standard error.
+pub fn main() -> ExitCode {
+    let printed = run(Arguments::parse().command).and_then(|report| print(&report));
+    let Err(error) = printed else { return ExitCode::SUCCESS };
+    // Where even this cannot be written, only the status is left to tell.
+    let _ = writeln!(io::stderr(), "error: {error:#}");
+    ExitCode::from(2)
+}
+
+/// Writes what a command says; a reader that has had enough (`| head`) is no error.
+fn print(report: &Report) -> Result<()> {
+    let mut out = io::stdout().lock();
+    let written = if report.as_json { writeln!(out, "{:#}", report.json) } else { write!(out, "{}", report.text) };
+    match written.and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(anyhow!("the result cannot be written to the standard output: {error}"))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn run(command: Command) -> Result<Report> {
+    match command {
+        Command::Bake(arguments) => command::bake::run(&arguments),
+        Command::Certify(arguments) => command::certify::run(&arguments),
+        Command::Develop(arguments) => command::develop::run(&arguments),
+        Command::Report(arguments) => command::report::run(&arguments),
+        Command::GpuBench(arguments) => command::gpu_bench::run(&arguments),
+        Command::Stocks(arguments) => command::stocks::run(&arguments),
+        Command::Fixtures(arguments) => command::fixtures::run(&arguments),
+        Command::Light(arguments) => command::light::run(&arguments),
+        Command::Compare(arguments) => command::compare::run(&arguments),
+        Command::Tidy(arguments) => command::tidy::run(&arguments),
+    }
+}
