@@ -12,11 +12,13 @@ pub(crate) mod expose;
 pub(crate) mod log2_exp2;
 pub(crate) mod lookup;
 pub(crate) mod matrix;
-pub(crate) mod shaper;
+mod padded;
 pub(crate) mod sum;
+mod wide;
 
 pub(crate) use block::{BLOCK, Block, BlockMap, Plane};
 pub(crate) use fearless_simd::Level;
+pub(crate) use padded::Padded;
 
 /// All levels that this machine can run.
 #[cfg(test)]

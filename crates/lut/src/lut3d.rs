@@ -1,5 +1,6 @@
 use crate::error::{Error, Kind};
 use crate::interpolate::{Interpolation, Place, tetrahedral, trilinear};
+use crate::kernel::Padded;
 
 /// A cube of `size`^3 entries over `[0, 1]`^3: three numbers at every node.
 ///
@@ -8,15 +9,16 @@ use crate::interpolate::{Interpolation, Place, tetrahedral, trilinear};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lut3d {
     size: usize,
-    /// One more than the table has: whoever reads four numbers at once may do so at the last.
     entries: Vec<[f32; 3]>,
+    /// The same for the loops, a zero after each: sixteen bytes are read at once.
+    padded: Padded<[f32; 4]>,
 }
 
 impl Lut3d {
     /// The fewest nodes a side.
     pub const MIN_SIZE: usize = 2;
 
-    /// The most nodes a side: 192 MiB of entries.
+    /// The most nodes a side: 192 MiB of entries, and 256 MiB as the pixel loops read them.
     pub const MAX_SIZE: usize = 256;
 
     /// A table of `size` nodes a side from its entries, red fastest.
@@ -24,7 +26,7 @@ impl Lut3d {
     /// # Errors
     ///
     /// If `size` is out of bounds, the number of entries is not `size`^3, or an entry is not finite.
-    pub fn new(size: usize, mut entries: Vec<[f32; 3]>) -> Result<Self, Error> {
+    pub fn new(size: usize, entries: Vec<[f32; 3]>) -> Result<Self, Error> {
         let expected = node_count(size)?;
         let found = entries.len();
         if found != expected {
@@ -33,9 +35,8 @@ impl Lut3d {
         match first_not_finite(&entries) {
             Some(index) => Err(Kind::Entry3d { node: node_of(index, size), found: entries[index] }.into()),
             None => {
-                entries.reserve_exact(1);
-                entries.push([0.0; 3]);
-                Ok(Self { size, entries })
+                let padded = Padded::new(entries.iter().map(|&[r, g, b]| [r, g, b, 0.0]));
+                Ok(Self { size, entries, padded })
             }
         }
     }
@@ -59,12 +60,12 @@ impl Lut3d {
 
     /// All entries, red fastest.
     pub fn entries(&self) -> &[[f32; 3]] {
-        &self.entries[..self.entries.len() - 1]
+        &self.entries
     }
 
-    /// The numbers of all entries, and three more.
-    pub(crate) fn numbers(&self) -> &[f32] {
-        self.entries.as_flattened()
+    /// The entries as the loops read them.
+    pub(crate) fn padded(&self) -> &Padded<[f32; 4]> {
+        &self.padded
     }
 
     /// Reads the table at coordinates in `[0, 1]`.

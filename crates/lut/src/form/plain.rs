@@ -1,6 +1,6 @@
 use crate::interpolate::Interpolation;
+use crate::kernel::cells::Axes;
 use crate::kernel::lookup::{lookup, lookup_to};
-use crate::kernel::shaper::shape;
 use crate::kernel::{Block, BlockMap, Level};
 use crate::lut3d::Lut3d;
 use crate::pixels::map_colours;
@@ -53,13 +53,11 @@ impl PlainLut {
 
 impl BlockMap for PlainLut {
     fn map_block(&self, level: Level, block: &mut Block, count: usize) {
-        shape(level, self.shaper.numbers(), block, count);
-        lookup(level, &self.table, self.interpolation, block, count);
+        lookup(level, Axes::Light(self.shaper.numbers()), &self.table, self.interpolation, block, count);
     }
 
     fn map_block_to(&self, level: Level, block: &mut Block, to: &mut [[f32; 4]]) {
-        shape(level, self.shaper.numbers(), block, to.len());
-        lookup_to(level, &self.table, self.interpolation, block, to);
+        lookup_to(level, Axes::Light(self.shaper.numbers()), &self.table, self.interpolation, block, to);
     }
 }
 

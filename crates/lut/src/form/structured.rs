@@ -3,6 +3,7 @@ use glam::{Mat3, Vec3};
 use crate::coding::PowerCoding;
 use crate::error::{Error, Kind};
 use crate::interpolate::Interpolation;
+use crate::kernel::cells::Axes;
 use crate::kernel::coding::decode_density;
 use crate::kernel::curves::Curves;
 use crate::kernel::expose::{affine, expose};
@@ -170,7 +171,7 @@ impl StructuredLut {
 impl BlockMap for StructuredLut {
     fn map_block(&self, level: Level, block: &mut Block, count: usize) {
         self.find_block(level, block, count);
-        lookup(level, &self.parts.table, self.parts.interpolation, block, count);
+        lookup(level, Axes::Coordinates, &self.parts.table, self.parts.interpolation, block, count);
         if let Decode::Density { matrix, coding } = &self.parts.decode {
             decode_density(level, matrix, &coding.numbers(), block, count);
         }
@@ -180,7 +181,7 @@ impl BlockMap for StructuredLut {
         match &self.parts.decode {
             Decode::Coded => {
                 self.find_block(level, block, to.len());
-                lookup_to(level, &self.parts.table, self.parts.interpolation, block, to);
+                lookup_to(level, Axes::Coordinates, &self.parts.table, self.parts.interpolation, block, to);
             }
             Decode::Density { .. } => {
                 self.map_block(level, block, to.len());

@@ -21,7 +21,7 @@ pub(crate) struct Block {
 #[repr(align(64))]
 pub(crate) struct Scratch {
     /// Where entries lie: a vertex of a cell, or the start of a piece of a curve.
-    pub(super) place: [Plane<u32>; 3],
+    pub(super) place: [Plane<u32>; 4],
     /// Weights of vertices, or fractions of pieces.
     pub(super) weight: [Plane; 4],
     /// Both ends of a piece of a curve.
@@ -30,7 +30,7 @@ pub(crate) struct Scratch {
 
 impl Block {
     pub(crate) fn new() -> Self {
-        let scratch = Scratch { place: [[0; BLOCK]; 3], weight: [[0.0; BLOCK]; 4], piece: [[0.0; 2]; BLOCK] };
+        let scratch = Scratch { place: [[0; BLOCK]; 4], weight: [[0.0; BLOCK]; 4], piece: [[0.0; 2]; BLOCK] };
         Self { rgb: [[0.0; BLOCK]; 3], alpha: [1.0; BLOCK], scratch }
     }
 }

@@ -1,37 +1,87 @@
 use fearless_simd::prelude::*;
 
 use super::block::{Block, each, load_rgb, starts, store, store_place};
+use super::expose::above_zero;
+use super::log2_exp2::log2s;
 use crate::interpolate::Interpolation;
+use crate::shaper::LogNumbers;
 
-/// Numbers of an entry, as [`Lut3d::numbers`] has them.
-///
-/// [`Lut3d::numbers`]: crate::lut3d::Lut3d::numbers
-pub(super) const NUMBERS: i32 = 3;
+/// What the block's colours are to a table.
+#[derive(Clone, Copy)]
+pub(crate) enum Axes<'a> {
+    /// Its coordinates, clamped to [0, 1]; not NaN.
+    Coordinates,
+    /// Light that a shaper makes coordinates of, as [`LogNumbers::encode`] does.
+    Light(&'a LogNumbers),
+}
 
-/// Finds the cells of coordinates (clamped to [0, 1], not NaN) in a table of `size` nodes a side, and what
-/// [`super::lookup`] needs to read them.
+/// Finds the cells of the block's colours in a table of `size` nodes a side, and what [`super::lookup`] needs to read them.
 #[inline(always)]
-pub(super) fn find<S: Simd>(simd: S, block: &mut Block, count: usize, size: usize, how: Interpolation) {
-    match how {
-        Interpolation::Tetrahedral => tetrahedra(simd, block, count, size),
-        Interpolation::Trilinear => cubes(simd, block, count, size),
+pub(super) fn find<S: Simd>(simd: S, axes: Axes<'_>, block: &mut Block, count: usize, size: usize, how: Interpolation) {
+    let cells = (size - 1) as f32;
+    match axes {
+        Axes::Coordinates => cells_of(simd, block, count, size, how, Scaled { cells }),
+        Axes::Light(&LogNumbers { per_offset, per_stop, .. }) => {
+            let shaped = Shaped { per_offset, per_stop: per_stop * cells, cells };
+            cells_of(simd, block, count, size, how, shaped);
+        }
     }
 }
 
-/// The corner of each lane's cell as a number of its entry, and how far into the cell it lies.
+/// From a colour's channel to a position along an axis of the table, in cells.
+trait Position: Copy {
+    fn position<S: Simd>(self, simd: S, value: S::f32s) -> S::f32s;
+}
+
+#[derive(Clone, Copy)]
+struct Scaled {
+    cells: f32,
+}
+
+impl Position for Scaled {
+    #[inline(always)]
+    fn position<S: Simd>(self, _: S, value: S::f32s) -> S::f32s {
+        value.max(0.0).min(1.0) * self.cells
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Shaped {
+    per_offset: f32,
+    /// Cells for each stop.
+    per_stop: f32,
+    cells: f32,
+}
+
+impl Position for Shaped {
+    #[inline(always)]
+    fn position<S: Simd>(self, simd: S, value: S::f32s) -> S::f32s {
+        let ratio = above_zero(simd, value).mul_add(self.per_offset, S::f32s::splat(simd, 1.0));
+        (log2s(simd, ratio) * self.per_stop).min(self.cells)
+    }
+}
+
 #[inline(always)]
-fn corner<S: Simd>(simd: S, coordinates: [S::f32s; 3], size: usize) -> (S::i32s, [S::f32s; 3]) {
-    let cells = S::f32s::splat(simd, (size - 1) as f32);
-    let last = S::f32s::splat(simd, (size - 2) as f32);
+fn cells_of<S: Simd>(simd: S, block: &mut Block, count: usize, size: usize, how: Interpolation, axis: impl Position) {
+    match how {
+        Interpolation::Tetrahedral => tetrahedra(simd, block, count, size, axis),
+        Interpolation::Trilinear => cubes(simd, block, count, size, axis),
+    }
+}
+
+/// The number of the entry where each lane's cell starts, and how far into the cell the lane lies.
+#[inline(always)]
+fn corner<S: Simd>(simd: S, colour: [S::f32s; 3], size: usize, axis: impl Position) -> (S::i32s, [S::f32s; 3]) {
     let position = each(
-        coordinates,
+        colour,
         #[inline(always)]
-        |c: S::f32s| c.max(0.0).min(1.0) * cells,
+        |value| axis.position(simd, value),
     );
+    // The last node has a cell of its own here, from which only that node is taken.
     let node = each(
         position,
         #[inline(always)]
-        |p: S::f32s| p.trunc().min(last),
+        |p: S::f32s| p.trunc(),
     );
     // Whole numbers below 2^24 (256^3 at most): exact.
     let size = S::f32s::splat(simd, size as f32);
@@ -39,28 +89,29 @@ fn corner<S: Simd>(simd: S, coordinates: [S::f32s; 3], size: usize) -> (S::i32s,
     (entry.to_int(), [position[0] - node[0], position[1] - node[1], position[2] - node[2]])
 }
 
-/// Three vertices (the fourth lies at a fixed distance from the first) and four weights.
+/// Four vertices and their weights.
 #[inline(always)]
-fn tetrahedra<S: Simd>(simd: S, block: &mut Block, count: usize, size: usize) {
+fn tetrahedra<S: Simd>(simd: S, block: &mut Block, count: usize, size: usize, axis: impl Position) {
     let steps = each(
         [1, size, size * size],
         #[inline(always)]
-        |step| S::i32s::splat(simd, NUMBERS * step as i32),
+        |step| S::i32s::splat(simd, step as i32),
     );
     let across = steps[0] + steps[1] + steps[2];
     let scratch = &mut block.scratch;
     for i in starts::<S>(count) {
-        let (entry, [x, y, z]) = corner(simd, load_rgb(simd, &block.rgb, i), size);
+        let (start, [x, y, z]) = corner(simd, load_rgb(simd, &block.rgb, i), size, axis);
+        let end = start + across;
         let (low, high) = (x.min(y), x.max(y));
         let (least, most) = (low.min(z), high.max(z));
         let middle = low.max(high.min(z));
         // Where fractions are equal the vertex between them has weight 0, so that any order of them does.
         let first = x.simd_eq(most).select(steps[0], y.simd_eq(most).select(steps[1], steps[2]));
         let last = z.simd_eq(least).select(steps[2], y.simd_eq(least).select(steps[1], steps[0]));
-        let start = entry * NUMBERS;
         store_place(simd, start, &mut scratch.place[0], i);
-        store_place(simd, first, &mut scratch.place[1], i);
-        store_place(simd, across - last, &mut scratch.place[2], i);
+        store_place(simd, start + first, &mut scratch.place[1], i);
+        store_place(simd, end - last, &mut scratch.place[2], i);
+        store_place(simd, end, &mut scratch.place[3], i);
         store::<S>(S::f32s::splat(simd, 1.0) - most, &mut scratch.weight[0], i);
         store::<S>(most - middle, &mut scratch.weight[1], i);
         store::<S>(middle - least, &mut scratch.weight[2], i);
@@ -68,13 +119,13 @@ fn tetrahedra<S: Simd>(simd: S, block: &mut Block, count: usize, size: usize) {
     }
 }
 
-/// The corner and the three fractions.
+/// Three fractions.
 #[inline(always)]
-fn cubes<S: Simd>(simd: S, block: &mut Block, count: usize, size: usize) {
+fn cubes<S: Simd>(simd: S, block: &mut Block, count: usize, size: usize, axis: impl Position) {
     let scratch = &mut block.scratch;
     for i in starts::<S>(count) {
-        let (entry, [x, y, z]) = corner(simd, load_rgb(simd, &block.rgb, i), size);
-        store_place(simd, entry * NUMBERS, &mut scratch.place[0], i);
+        let (start, [x, y, z]) = corner(simd, load_rgb(simd, &block.rgb, i), size, axis);
+        store_place(simd, start, &mut scratch.place[0], i);
         store::<S>(x, &mut scratch.weight[0], i);
         store::<S>(y, &mut scratch.weight[1], i);
         store::<S>(z, &mut scratch.weight[2], i);

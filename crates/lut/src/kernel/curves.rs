@@ -2,16 +2,19 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch};
 
 use super::block::{BLOCK, Block, Plane, Scratch, load, starts, store, store_place};
+use super::padded::{Padded, with_padded};
 use crate::lut1d::Lut1d;
 
-/// The curves of a [`Lut1d`], one after the other: as many bytes again as the table has.
+/// The curves of a [`Lut1d`], one after the other: twice as many bytes again as the table has.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Curves([Curve; 3]);
 
-/// Entries of a channel, where the first of them lies, and entries for each unit of input.
+/// Both ends of each piece of a channel's curve, where the first lies, and pieces for each unit of input.
 #[derive(Clone, Debug, PartialEq)]
 struct Curve {
-    entries: Vec<f32>,
+    pieces: Padded<[f32; 2]>,
+    /// The number of pieces.
+    end: f32,
     start: f32,
     scale: f32,
 }
@@ -20,7 +23,8 @@ impl Curves {
     pub(crate) fn new(table: &Lut1d) -> Self {
         let [min, max] = [table.domain().min(), table.domain().max()];
         Self(std::array::from_fn(|c| Curve {
-            entries: table.entries().iter().map(|entry| entry[c]).collect(),
+            pieces: Padded::new(table.entries().windows(2).map(|ends| [ends[0][c], ends[1][c]])),
+            end: (table.size() - 1) as f32,
             start: min[c],
             scale: (table.size() - 1) as f32 / (max[c] - min[c]),
         }))
@@ -29,28 +33,32 @@ impl Curves {
     /// Reads each channel's curve at that channel's plane, which holds no NaN.
     pub(crate) fn apply(&self, level: Level, Block { rgb, scratch, .. }: &mut Block, count: usize) {
         for (curve, plane) in self.0.iter().zip(rgb) {
-            dispatch!(level, simd => curve.apply(simd, plane, scratch, count));
+            with_padded!(curve.pieces, pieces => dispatch!(level, simd => curve.apply(simd, pieces, plane, scratch, count)));
         }
     }
 }
 
 impl Curve {
     #[inline(always)]
-    fn apply<S: Simd>(&self, simd: S, plane: &mut Plane, scratch: &mut Scratch, count: usize) {
+    fn apply<S: Simd, const N: usize>(
+        &self,
+        simd: S,
+        pieces: &[[f32; 2]; N],
+        plane: &mut Plane,
+        scratch: &mut Scratch,
+        count: usize,
+    ) {
         let Scratch { place: [place, ..], weight: [fraction, ..], piece } = scratch;
-        let end = (self.entries.len() - 1) as f32;
-        let last = S::f32s::splat(simd, end - 1.0);
+        let last = S::f32s::splat(simd, self.end - 1.0);
         for i in starts::<S>(count) {
-            let position = ((load(simd, plane, i) - self.start) * self.scale).max(0.0).min(end);
+            let position = ((load(simd, plane, i) - self.start) * self.scale).max(0.0).min(self.end);
             let index = position.trunc().min(last);
             store::<S>(position - index, fraction, i);
             store_place(simd, index.to_int(), place, i);
         }
         let covered = count.next_multiple_of(S::f32s::LEN).min(BLOCK);
         for (piece, place) in piece.iter_mut().zip(&place[..covered]) {
-            let place = *place as usize;
-            let ends = &self.entries[place..place + 2];
-            *piece = [ends[0], ends[1]];
+            *piece = pieces[*place as usize % N];
         }
         let ends = piece.as_flattened();
         for i in starts::<S>(count) {

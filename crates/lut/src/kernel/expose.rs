@@ -17,23 +17,19 @@ pub(crate) fn expose(level: Level, input: &Rows, exposure: &Rows, block: &mut Bl
 fn exposed<S: Simd>(simd: S, input: &Rows, exposure: &Rows, block: &mut Block, count: usize) {
     let is_identity = *input == IDENTITY;
     for i in starts::<S>(count) {
-        let mut colour = each(
-            load_rgb(simd, &block.rgb, i),
-            #[inline(always)]
-            |v| number(simd, v),
-        );
+        let mut colour = load_rgb(simd, &block.rgb, i);
         if !is_identity {
             colour = each(
                 colour,
                 #[inline(always)]
-                |v: S::f32s| v.max(-INPUT_MAX).min(INPUT_MAX),
+                |v| number(simd, v).max(-INPUT_MAX).min(INPUT_MAX),
             );
             colour = times(simd, input, [0.0; 3], colour);
         }
         let scene = each(
             colour,
             #[inline(always)]
-            |v: S::f32s| v.max(0.0).min(INPUT_MAX),
+            |v| above_zero(simd, v).min(INPUT_MAX),
         );
         let log2 = each(
             times(simd, exposure, [0.0; 3], scene),
@@ -42,6 +38,14 @@ fn exposed<S: Simd>(simd: S, input: &Rows, exposure: &Rows, block: &mut Block, c
         );
         store_rgb::<S>(log2, &mut block.rgb, i);
     }
+}
+
+/// The larger of the number and 0; 0 for NaN.
+#[inline(always)]
+pub(super) fn above_zero<S: Simd>(simd: S, v: S::f32s) -> S::f32s {
+    let zero = S::f32s::splat(simd, 0.0);
+    // x86 takes the second of two numbers if one is NaN; asking for that by name costs it two instructions more.
+    if cfg!(any(target_arch = "x86", target_arch = "x86_64")) { v.max(zero) } else { v.max_precise(zero) }
 }
 
 /// 0 for NaN.

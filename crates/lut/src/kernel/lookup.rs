@@ -1,31 +1,41 @@
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, dispatch, f32x4, f64x2};
+use fearless_simd::{Level, dispatch, f32x4, f32x8, f32x16};
 
-use super::block::{BLOCK, Block, Scratch};
-use super::cells::{self, NUMBERS};
+use super::block::{BLOCK, Block, Plane, Scratch};
+use super::cells::{self, Axes};
+use super::padded::with_padded;
+use super::wide::Wide;
 use crate::interpolate::Interpolation;
 use crate::lut3d::Lut3d;
 
-/// Reads the table at the block's coordinates, which become what was read.
-pub(crate) fn lookup(level: Level, table: &Lut3d, how: Interpolation, block: &mut Block, count: usize) {
-    dispatch!(level, simd => {
-        cells::find(simd, block, count, table.size(), how);
+/// Reads the table at the block's colours, which become what was read.
+pub(crate) fn lookup(level: Level, axes: Axes<'_>, table: &Lut3d, how: Interpolation, block: &mut Block, count: usize) {
+    with_padded!(table.padded(), entries => dispatch!(level, simd => {
+        cells::find(simd, axes, block, count, table.size(), how);
+        let Block { rgb, scratch, .. } = block;
         match how {
-            Interpolation::Tetrahedral => planes(block, count, &Tetrahedra::new(simd, table)),
-            Interpolation::Trilinear => planes(block, count, &Cubes::new(simd, table)),
+            Interpolation::Tetrahedral => to_planes(simd, rgb, scratch, count, &Tetrahedra { entries, places: &scratch.place }),
+            Interpolation::Trilinear => to_planes(simd, rgb, scratch, count, &Cubes::new(entries, table, scratch)),
         }
-    });
+    }));
 }
 
 /// As [`lookup()`], with the result and the block's alpha written to `to`.
-pub(crate) fn lookup_to(level: Level, table: &Lut3d, how: Interpolation, block: &mut Block, to: &mut [[f32; 4]]) {
-    dispatch!(level, simd => {
-        cells::find(simd, block, to.len(), table.size(), how);
+pub(crate) fn lookup_to(
+    level: Level,
+    axes: Axes<'_>,
+    table: &Lut3d,
+    how: Interpolation,
+    block: &mut Block,
+    to: &mut [[f32; 4]],
+) {
+    with_padded!(table.padded(), entries => dispatch!(level, simd => {
+        cells::find(simd, axes, block, to.len(), table.size(), how);
         match how {
-            Interpolation::Tetrahedral => pixels(block, to, &Tetrahedra::new(simd, table)),
-            Interpolation::Trilinear => pixels(block, to, &Cubes::new(simd, table)),
+            Interpolation::Tetrahedral => to_pixels(simd, block, to, &Tetrahedra { entries, places: &block.scratch.place }),
+            Interpolation::Trilinear => to_pixels(simd, block, to, &Cubes::new(entries, table, &block.scratch)),
         }
-    });
+    }));
 }
 
 /// Writes the block's colours and alpha.
@@ -51,107 +61,160 @@ fn interleaved<S: Simd>(simd: S, block: &Block, to: &mut [[f32; 4]]) {
     }
 }
 
-/// A value between the entries of a table, from the cells found.
+/// The value between the entries of a table, from the cells found.
 trait Read<S: Simd> {
-    /// The three numbers of a pixel of the block, and a fourth without meaning.
-    fn read(&self, scratch: &Scratch, i: usize) -> f32x4<S>;
+    /// The three numbers of each of `pixels`, with a fourth without meaning, from their weights.
+    fn read<V: Wide<S>>(&self, simd: S, weights: [V; 4], pixels: [usize; 4]) -> V;
 }
 
-struct Tetrahedra<'a, S> {
-    simd: S,
-    numbers: &'a [f32],
-    /// From the first corner of a cell to the last.
-    across: usize,
+/// Four vertices.
+struct Tetrahedra<'a, const N: usize> {
+    entries: &'a [[f32; 4]; N],
+    places: &'a [Plane<u32>; 4],
 }
 
-impl<'a, S: Simd> Tetrahedra<'a, S> {
+impl<S: Simd, const N: usize> Read<S> for Tetrahedra<'_, N> {
     #[inline(always)]
-    fn new(simd: S, table: &'a Lut3d) -> Self {
-        let size = table.size();
-        Self { simd, numbers: table.numbers(), across: NUMBERS as usize * (1 + size + size * size) }
+    fn read<V: Wide<S>>(&self, simd: S, weights: [V; 4], pixels: [usize; 4]) -> V {
+        let Self { entries, places: [first, second, third, fourth] } = self;
+        let sum = join::<S, V, N>(simd, entries, first, pixels, 0) * weights[0];
+        let sum = join::<S, V, N>(simd, entries, second, pixels, 0).mul_add(weights[1], sum);
+        let sum = join::<S, V, N>(simd, entries, third, pixels, 0).mul_add(weights[2], sum);
+        join::<S, V, N>(simd, entries, fourth, pixels, 0).mul_add(weights[3], sum)
     }
 }
 
-impl<S: Simd> Read<S> for Tetrahedra<'_, S> {
+/// Eight corners.
+struct Cubes<'a, const N: usize> {
+    entries: &'a [[f32; 4]; N],
+    places: &'a Plane<u32>,
+    /// From a corner of a cell to its neighbours along red, green and blue.
+    steps: [u32; 3],
+}
+
+impl<'a, const N: usize> Cubes<'a, N> {
     #[inline(always)]
-    fn read(&self, Scratch { place, weight, .. }: &Scratch, i: usize) -> f32x4<S> {
-        let start = place[0][i] as usize;
-        let cell = &self.numbers[start..start + self.across + 4];
-        // They are within the cell; said once more, so that the compiler checks the cell only.
-        let first = (place[1][i] as usize).min(self.across);
-        let second = (place[2][i] as usize).min(self.across);
-        let sum = entry(self.simd, cell, 0) * weight[0][i];
-        let sum = entry(self.simd, cell, first).mul_add(weight[1][i], sum);
-        let sum = entry(self.simd, cell, second).mul_add(weight[2][i], sum);
-        entry(self.simd, cell, self.across).mul_add(weight[3][i], sum)
+    fn new(entries: &'a [[f32; 4]; N], table: &Lut3d, Scratch { place: [places, ..], .. }: &'a Scratch) -> Self {
+        let size = table.size() as u32;
+        Self { entries, places, steps: [1, size, size * size] }
     }
 }
 
-struct Cubes<'a, S> {
-    simd: S,
-    numbers: &'a [f32],
-    steps: [usize; 3],
-}
-
-impl<'a, S: Simd> Cubes<'a, S> {
+impl<S: Simd, const N: usize> Read<S> for Cubes<'_, N> {
     #[inline(always)]
-    fn new(simd: S, table: &'a Lut3d) -> Self {
-        let size = table.size();
-        let step = NUMBERS as usize;
-        Self { simd, numbers: table.numbers(), steps: [step, step * size, step * size * size] }
-    }
-}
-
-impl<S: Simd> Read<S> for Cubes<'_, S> {
-    #[inline(always)]
-    fn read(&self, Scratch { place, weight, .. }: &Scratch, i: usize) -> f32x4<S> {
-        let [r, g, b] = self.steps;
-        let [x, y, z] = [weight[0][i], weight[1][i], weight[2][i]];
-        let start = place[0][i] as usize;
-        let cell = &self.numbers[start..start + r + g + b + 4];
-        let mut sides = [f32x4::splat(self.simd, 0.0); 2];
-        for (side, step) in sides.iter_mut().zip([0, b]) {
-            let near = mix(entry(self.simd, cell, step), entry(self.simd, cell, step + r), x);
-            let far = mix(entry(self.simd, cell, step + g), entry(self.simd, cell, step + r + g), x);
-            *side = mix(near, far, y);
+    fn read<V: Wide<S>>(&self, simd: S, [x, y, z, _]: [V; 4], pixels: [usize; 4]) -> V {
+        let Self { entries, places, steps: [red, green, blue] } = *self;
+        let mut sides = [x; 2];
+        for (side, step) in sides.iter_mut().zip([0, blue]) {
+            let mut edges = [x; 2];
+            for (edge, step) in edges.iter_mut().zip([step, step + green]) {
+                let near = join::<S, V, N>(simd, entries, places, pixels, step);
+                *edge = mix(simd, near, join::<S, V, N>(simd, entries, places, pixels, step + red), x);
+            }
+            *side = mix(simd, edges[0], edges[1], y);
         }
-        mix(sides[0], sides[1], z)
+        mix(simd, sides[0], sides[1], z)
     }
+}
+
+/// The entries of several pixels, `step` beyond their places, side by side.
+#[inline(always)]
+fn join<S: Simd, V: Wide<S>, const N: usize>(
+    simd: S,
+    entries: &[[f32; 4]; N],
+    places: &Plane<u32>,
+    [a, b, c, d]: [usize; 4],
+    step: u32,
+) -> V {
+    let entry = |i: usize| entries[places[i].wrapping_add(step) as usize % N];
+    let (a, b) = (f32x4::simd_from(simd, entry(a)), f32x4::simd_from(simd, entry(b)));
+    V::join([a, b, f32x4::simd_from(simd, entry(c)), f32x4::simd_from(simd, entry(d))])
 }
 
 /// A weighted mean rather than `a + (b - a) t`: finite for all finite ends.
 #[inline(always)]
-fn mix<S: Simd>(a: f32x4<S>, b: f32x4<S>, t: f32) -> f32x4<S> {
-    b.mul_add(t, a * (1.0 - t))
+fn mix<S: Simd, V: Wide<S>>(simd: S, a: V, b: V, t: V) -> V {
+    b.mul_add(t, a * (V::splat(simd, 1.0) - t))
 }
 
-/// Four numbers at once: the entry, and the next one's first.
+/// The widest vectors that the level has; where it has but narrow ones, two of them.
 #[inline(always)]
-fn entry<S: Simd>(simd: S, numbers: &[f32], start: usize) -> f32x4<S> {
-    f32x4::from_slice(simd, &numbers[start..start + 4])
+fn to_planes<S: Simd>(simd: S, rgb: &mut [Plane; 3], scratch: &Scratch, count: usize, table: &impl Read<S>) {
+    if S::f32s::LEN == 16 {
+        planes::<S, f32x16<S>>(simd, rgb, scratch, count, table);
+    } else {
+        planes::<S, f32x8<S>>(simd, rgb, scratch, count, table);
+    }
 }
 
-/// Reads four pixels at a time and turns them to planes.
 #[inline(always)]
-fn planes<S: Simd>(block: &mut Block, count: usize, table: &impl Read<S>) {
-    let [red, green, blue] = &mut block.rgb;
-    for i in (0..count.min(BLOCK)).step_by(4) {
-        let [a, b] = [table.read(&block.scratch, i), table.read(&block.scratch, i + 1)];
-        let [c, d] = [table.read(&block.scratch, i + 2), table.read(&block.scratch, i + 3)];
-        let (low, high): (f64x2<S>, f64x2<S>) = (a.zip_low(b).bitcast(), c.zip_low(d).bitcast());
-        low.zip_low(high).bitcast::<f32x4<S>>().store_slice(&mut red[i..i + 4]);
-        low.zip_high(high).bitcast::<f32x4<S>>().store_slice(&mut green[i..i + 4]);
-        let (low, high): (f64x2<S>, f64x2<S>) = (a.zip_high(b).bitcast(), c.zip_high(d).bitcast());
-        low.zip_low(high).bitcast::<f32x4<S>>().store_slice(&mut blue[i..i + 4]);
+fn to_pixels<S: Simd>(simd: S, block: &Block, to: &mut [[f32; 4]], table: &impl Read<S>) {
+    if S::f32s::LEN == 16 {
+        pixels::<S, f32x16<S>>(simd, block, to, table);
+    } else {
+        pixels::<S, f32x8<S>>(simd, block, to, table);
+    }
+}
+
+/// Reads groups and turns them to planes.
+#[inline(always)]
+fn planes<S: Simd, V: Wide<S>>(
+    simd: S,
+    [red, green, blue]: &mut [Plane; 3],
+    scratch: &Scratch,
+    count: usize,
+    table: &impl Read<S>,
+) {
+    for i in (0..count.min(BLOCK)).step_by(V::LEN) {
+        let w = weights::<S, V>(simd, scratch, i);
+        let a = table.read(simd, V::each_of_far::<0>(simd, w), V::far_pixels(i, 0));
+        let b = table.read(simd, V::each_of_far::<1>(simd, w), V::far_pixels(i, 1));
+        let c = table.read(simd, V::each_of_far::<2>(simd, w), V::far_pixels(i, 2));
+        let d = table.read(simd, V::each_of_far::<3>(simd, w), V::far_pixels(i, 3));
+        let [r, g, b] = V::turn([a, b, c, d]);
+        r.store_slice(&mut red[i..i + V::LEN]);
+        g.store_slice(&mut green[i..i + V::LEN]);
+        b.store_slice(&mut blue[i..i + V::LEN]);
     }
 }
 
 /// Reads each pixel to its place, alpha beside it.
 #[inline(always)]
-fn pixels<S: Simd>(block: &Block, to: &mut [[f32; 4]], table: &impl Read<S>) {
-    for (i, (to, alpha)) in to.iter_mut().zip(&block.alpha).enumerate() {
-        let mut pixel = table.read(&block.scratch, i);
-        pixel[3] = *alpha;
-        pixel.store_array(to);
+fn pixels<S: Simd, V: Wide<S>>(simd: S, block: &Block, to: &mut [[f32; 4]], table: &impl Read<S>) {
+    let mut groups = to.chunks_exact_mut(V::LEN);
+    let mut i = 0;
+    for group in &mut groups {
+        pixel_group::<S, V>(simd, block, group, table, i);
+        i += V::LEN;
     }
+    let rest = groups.into_remainder();
+    if !rest.is_empty() {
+        let mut group = [[0.0; 4]; 16];
+        pixel_group::<S, V>(simd, block, &mut group[..V::LEN], table, i);
+        rest.copy_from_slice(&group[..rest.len()]);
+    }
+}
+
+#[inline(always)]
+fn pixel_group<S: Simd, V: Wide<S>>(simd: S, block: &Block, to: &mut [[f32; 4]], table: &impl Read<S>, i: usize) {
+    let Block { alpha, scratch, .. } = block;
+    let w = weights::<S, V>(simd, scratch, i);
+    let alpha = V::from_slice(simd, &alpha[i..i + V::LEN]);
+    let to = to.as_flattened_mut();
+    let is_alpha = V::is_fourth(simd);
+    let colours = table.read(simd, V::each_of_near::<0>(w), V::near_pixels(i, 0));
+    is_alpha.select(V::near::<0>(alpha), colours).store_slice(&mut to[..V::LEN]);
+    let colours = table.read(simd, V::each_of_near::<1>(w), V::near_pixels(i, 1));
+    is_alpha.select(V::near::<1>(alpha), colours).store_slice(&mut to[V::LEN..2 * V::LEN]);
+    let colours = table.read(simd, V::each_of_near::<2>(w), V::near_pixels(i, 2));
+    is_alpha.select(V::near::<2>(alpha), colours).store_slice(&mut to[2 * V::LEN..3 * V::LEN]);
+    let colours = table.read(simd, V::each_of_near::<3>(w), V::near_pixels(i, 3));
+    is_alpha.select(V::near::<3>(alpha), colours).store_slice(&mut to[3 * V::LEN..4 * V::LEN]);
+}
+
+#[inline(always)]
+fn weights<S: Simd, V: Wide<S>>(simd: S, Scratch { weight, .. }: &Scratch, i: usize) -> [V; 4] {
+    let end = i + V::LEN;
+    let (a, b) = (V::from_slice(simd, &weight[0][i..end]), V::from_slice(simd, &weight[1][i..end]));
+    [a, b, V::from_slice(simd, &weight[2][i..end]), V::from_slice(simd, &weight[3][i..end])]
 }

@@ -55,27 +55,39 @@ pub(super) fn map<S: Sample, T: Sample>(
     let joined = here.is_dense() && there.is_dense();
     let (from, to) = (&from[..here.samples()], &mut to[..there.samples()]);
     let (here, there) = (Cut::new(here, joined), Cut::new(there, joined));
-    let pieces = to.par_chunks_mut(there.stride).zip(from.par_chunks(here.stride)).take(here.pieces);
-    pieces.with_min_len(here.together()).for_each_init(Block::new, |block, (to, from)| {
+    let each = |block: &mut Block, (to, from): (&mut [T], &[S])| {
         let [from_step, to_step] = [here.channels, there.channels].map(|channels| BLOCK * channels.count());
         let blocks = there.pixels_mut(to).chunks_mut(to_step).zip(here.pixels(from).chunks(from_step));
         for (to, from) in blocks {
             read(level, from, here.channels, block);
             finish(form, level, block, to, there.channels);
         }
-    });
+    };
+    if here.pieces <= here.together() {
+        let block = &mut Block::new();
+        let pieces = to.chunks_mut(there.stride).zip(from.chunks(here.stride)).take(here.pieces);
+        return pieces.for_each(|piece| each(block, piece));
+    }
+    let pieces = to.par_chunks_mut(there.stride).zip(from.par_chunks(here.stride)).take(here.pieces);
+    pieces.with_min_len(here.together()).for_each_init(Block::new, each);
 }
 
 /// A picture in place.
 pub(super) fn map_in_place<S: Sample>(form: &dyn BlockMap, level: Level, samples: &mut [S], layout: Layout) {
     let cut = Cut::new(layout, layout.is_dense());
-    let pieces = samples[..layout.samples()].par_chunks_mut(cut.stride).take(cut.pieces);
-    pieces.with_min_len(cut.together()).for_each_init(Block::new, |block, piece| {
+    let samples = &mut samples[..layout.samples()];
+    let each = |block: &mut Block, piece: &mut [S]| {
         for pixels in cut.pixels_mut(piece).chunks_mut(BLOCK * cut.channels.count()) {
             read(level, pixels, cut.channels, block);
             finish(form, level, block, pixels, cut.channels);
         }
-    });
+    };
+    if cut.pieces <= cut.together() {
+        let block = &mut Block::new();
+        return samples.chunks_mut(cut.stride).take(cut.pieces).for_each(|piece| each(block, piece));
+    }
+    let pieces = samples.par_chunks_mut(cut.stride).take(cut.pieces);
+    pieces.with_min_len(cut.together()).for_each_init(Block::new, each);
 }
 
 /// Colours in place.

@@ -244,6 +244,19 @@ fn every_form_on_every_level_follows_its_scalar_definition() {
 }
 
 #[test]
+fn tables_of_every_length_in_memory_are_read_alike() {
+    for size in [2, 40, 41, 80, 81] {
+        for how in [Interpolation::Tetrahedral, Interpolation::Trilinear] {
+            let form = PlainLut::new(Shaper::log2(0.02, 16.0).unwrap(), table(size), how);
+            for level in levels() {
+                follows::<f32, f32>(&form, level, [Channels::Rgba; 2], 129);
+                follows::<f32, f32>(&form, level, [Channels::Rgb; 2], 129);
+            }
+        }
+    }
+}
+
+#[test]
 fn every_pair_of_sample_types_follows() {
     fn from<S: Near>(form: &PlainLut, level: Level, channels: [Channels; 2], width: usize) {
         follows::<S, f32>(form, level, channels, width);
