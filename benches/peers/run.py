@@ -21,7 +21,8 @@ from results import Row, Target
 
 OCIO, FILM_LUT, COPY, PLAIN = "OpenColorIO", "spectral-film-lut", "copy of the f32 picture", "our plain, f32 to f32"
 PLAIN_F32, PLAIN_U8 = "plain, f32 to f32", "plain, f32 to u8"
-STRUCTURED, DIRECT = "structured, f32 to f32", "direct, f32 to f32"
+STRUCTURED, DISPLAY = "structured, f32 to f32", "structured of display entries, f32 to f32"
+DIRECT = "direct, f32 to f32"
 BAKE, BAKE_FORM, BAKE_EXACT = "bake 33^3", "bake 33^3, its form made before", "bake 33^3, reference"
 FILE = "bake 33^3 to .cube"
 TARGETS = [
@@ -29,6 +30,7 @@ TARGETS = [
     Target("plain f32 to RGBA8, one thread, times OpenColorIO", (PLAIN_U8, OCIO, True, "warm"), 3, "faster"),
     Target("plain f32 to RGBA8, all cores, in copies", (PLAIN_U8, COPY, False, "warm"), 3, "cost"),
     Target("structured f32 to f32, one thread, in plain", (STRUCTURED, PLAIN, True, "warm"), 2, "cost"),
+    Target("the same of display entries", (DISPLAY, PLAIN, True, "warm"), 2, "cost"),
     Target("direct f32 to f32, one thread, in plain", (DIRECT, PLAIN, True, "warm"), 10, "cost"),
     Target("the same, as aimed for", (DIRECT, PLAIN, True, "warm"), 4, "cost"),
     Target("bake 33^3, one thread, times spectral-film-lut", (BAKE_FORM, FILM_LUT, True, "warm"), 10, "faster"),
@@ -120,7 +122,7 @@ class Run:
             for kind in ["f32", "u8"]:
                 copy()
                 self.add(PLAIN_JOBS[kind], COPY, threads, "warm", *self.turns(apply("plain", kind), copy), pixels)
-            for form, job in [("structured", STRUCTURED), ("direct", DIRECT)]:
+            for form, job in [("structured", STRUCTURED), ("display", DISPLAY), ("direct", DIRECT)]:
                 self.say(f"making the {form} form")
                 ours.ask("build", form)
                 apply(form, "f32")()

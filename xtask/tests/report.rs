@@ -72,7 +72,7 @@ fn a_quick_report_is_whole_and_holds_every_form() {
     for study in ["picture", "table", "nodes", "threads"] {
         assert!(!said["growth"][study][0]["points"].as_array().unwrap().is_empty(), "{study}");
     }
-    let ours = ["plain 17, f32", "structured 16, 10 bit", "direct 5 + 9", "the talk's 32", "the film itself"];
+    let ours = ["plain 17, f32", "structured 16 display, 10 bit", "direct 5 + 9", "the talk's 32", "the film itself"];
     for form in ours.into_iter().chain(["structured 32 on A &lt;card&gt;", "a program &amp; its table"]) {
         assert!(page.contains(form), "{form} is not on the page");
     }

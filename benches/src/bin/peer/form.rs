@@ -1,6 +1,6 @@
 use std::error::Error;
 
-use onelight::{DirectSettings, Reference, StructuredSettings};
+use onelight::{DirectSettings, Reference, StructuredSettings, TableCoding};
 use onelight_benches::{PLAIN_SIZE, shaper};
 use onelight_lut::{
     DirectForm, Interpolation, Lut3d, PixelMap, Pixels, PixelsMut, PlainLut, Sample, StructuredLut, bake, bake_form,
@@ -19,8 +19,8 @@ impl Form {
         Ok(Self::Plain(PlainLut::new(shaper()?, Lut3d::new(PLAIN_SIZE, entries)?, Interpolation::Tetrahedral)))
     }
 
-    pub(crate) fn structured(film: &Reference) -> Result<Self, Box<dyn Error>> {
-        Ok(Self::Structured(film.structured(&StructuredSettings::default())?))
+    pub(crate) fn structured(film: &Reference, coding: TableCoding) -> Result<Self, Box<dyn Error>> {
+        Ok(Self::Structured(film.structured(&StructuredSettings { coding, ..StructuredSettings::default() })?))
     }
 
     pub(crate) fn direct(film: &Reference) -> Result<Self, Box<dyn Error>> {

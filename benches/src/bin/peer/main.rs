@@ -6,7 +6,7 @@
 //! | `make FOLDER WIDTH HEIGHT` | writes the picture and the plain table as bare little-endian float32 | nodes a side, the shaper's offset and maximum |
 //! | `threads N` | starts a pool of that many | |
 //! | `read FOLDER WIDTH HEIGHT` | loads what `make` wrote | |
-//! | `build FORM` | `plain` from the table that was read, `structured` and `direct` from the film | time |
+//! | `build FORM` | `plain` from the table that was read, `structured`, `display` (that of display entries) and `direct` from the film | time |
 //! | `apply FORM TYPE RUNS` | the whole picture through a form to `f32` or `u8` RGBA | time of each run |
 //! | `copy RUNS` | copies the picture | time of each run |
 //! | `save TYPE FILE` | writes the last result of that type | |

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
-use onelight::Reference;
+use onelight::{Reference, TableCoding};
 use onelight_benches::{NEGATIVE, PLAIN_SIZE, SHAPER, film, natural, plain};
 use onelight_lut::{Channels, Pixels, PixelsMut, Sample};
 use rayon::prelude::*;
@@ -93,12 +93,16 @@ impl Session {
                 begin = Instant::now();
                 Form::plain(entries)
             }
-            "structured" | "direct" => {
+            "structured" | "display" | "direct" => {
                 let film = known(&mut self.film)?;
                 begin = Instant::now();
-                if name == "direct" { Form::direct(film) } else { Form::structured(film) }
+                match name {
+                    "structured" => Form::structured(film, TableCoding::Density),
+                    "display" => Form::structured(film, TableCoding::Display),
+                    _ => Form::direct(film),
+                }
             }
-            _ => return Err("found another form, expected plain, structured or direct".into()),
+            _ => return Err("found another form, expected plain, structured, display or direct".into()),
         }?;
         let time = begin.elapsed().as_nanos() as f64;
         self.forms.insert(name.to_owned(), form);

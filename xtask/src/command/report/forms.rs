@@ -77,7 +77,7 @@ const CURVE_POINT: usize = 12;
 const TERM: usize = 24;
 
 const STORED_DENSITY: [Storage; 3] = [Storage::F32, Storage::F16, Storage::Unorm16];
-const STORED_DISPLAY: [Storage; 2] = [Storage::Unorm10, Storage::Unorm8];
+const STORED_DISPLAY: [Storage; 3] = [Storage::F16, Storage::Unorm10, Storage::Unorm8];
 /// Largest table of display-coded entries.
 const DISPLAY_SIZE: usize = 32;
 const GRIDS_NM: [usize; 5] = [1, 2, 5, 10, 20];
@@ -104,7 +104,7 @@ pub(super) fn all(film: &Reference, process: &Process, scope: Scope, done: impl 
     };
     add(Kind::Talk, talk, &[Storage::F16], "")?;
     for &size in plain {
-        let all = [&STORED_DENSITY[..], &STORED_DISPLAY].concat();
+        let all = [&STORED_DENSITY[..], &STORED_DISPLAY[1..]].concat();
         add(Kind::Plain, Recipe { size, ..usual }, &all, "")?;
     }
     if scope == Scope::Full {
@@ -115,7 +115,7 @@ pub(super) fn all(film: &Reference, process: &Process, scope: Scope, done: impl 
         add(Kind::Structured, Recipe { size, ..usual }, &STORED_DENSITY, "")?;
         // Finer tables gain nothing from entries as coarse as these.
         if size <= DISPLAY_SIZE {
-            add(Kind::Structured, Recipe { size, coding: TableCoding::Display, ..usual }, &STORED_DISPLAY, "")?;
+            add(Kind::Structured, Recipe { size, coding: TableCoding::Display, ..usual }, &STORED_DISPLAY, " display")?;
         }
     }
     Ok(made)
