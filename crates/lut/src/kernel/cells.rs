@@ -1,4 +1,5 @@
 use fearless_simd::prelude::*;
+use fearless_simd::{Level, dispatch};
 
 use super::block::{Block, each, load_rgb, starts, store, store_place};
 use super::expose::above_zero;
@@ -16,16 +17,15 @@ pub(crate) enum Axes<'a> {
 }
 
 /// Finds the cells of the block's colours in a table of `size` nodes a side, and what [`super::lookup`] needs to read them.
-#[inline(always)]
-pub(super) fn find<S: Simd>(simd: S, axes: Axes<'_>, block: &mut Block, count: usize, size: usize, how: Interpolation) {
+pub(super) fn find(level: Level, axes: Axes<'_>, block: &mut Block, count: usize, size: usize, how: Interpolation) {
     let cells = (size - 1) as f32;
-    match axes {
+    dispatch!(level, simd => match axes {
         Axes::Coordinates => cells_of(simd, block, count, size, how, Scaled { cells }),
         Axes::Light(&LogNumbers { per_offset, per_stop, .. }) => {
             let shaped = Shaped { per_offset, per_stop: per_stop * cells, cells };
             cells_of(simd, block, count, size, how, shaped);
         }
-    }
+    });
 }
 
 /// From a colour's channel to a position along an axis of the table, in cells.

@@ -10,8 +10,8 @@ use crate::lut3d::Lut3d;
 
 /// Reads the table at the block's colours, which become what was read.
 pub(crate) fn lookup(level: Level, axes: Axes<'_>, table: &Lut3d, how: Interpolation, block: &mut Block, count: usize) {
+    cells::find(level, axes, block, count, table.size(), how);
     with_padded!(table.padded(), entries => dispatch!(level, simd => {
-        cells::find(simd, axes, block, count, table.size(), how);
         let Block { rgb, scratch, .. } = block;
         match how {
             Interpolation::Tetrahedral => to_planes(simd, rgb, scratch, count, &Tetrahedra { entries, places: &scratch.place }),
@@ -29,12 +29,10 @@ pub(crate) fn lookup_to(
     block: &mut Block,
     to: &mut [[f32; 4]],
 ) {
-    with_padded!(table.padded(), entries => dispatch!(level, simd => {
-        cells::find(simd, axes, block, to.len(), table.size(), how);
-        match how {
-            Interpolation::Tetrahedral => to_pixels(simd, block, to, &Tetrahedra { entries, places: &block.scratch.place }),
-            Interpolation::Trilinear => to_pixels(simd, block, to, &Cubes::new(entries, table, &block.scratch)),
-        }
+    cells::find(level, axes, block, to.len(), table.size(), how);
+    with_padded!(table.padded(), entries => dispatch!(level, simd => match how {
+        Interpolation::Tetrahedral => to_pixels(simd, block, to, &Tetrahedra { entries, places: &block.scratch.place }),
+        Interpolation::Trilinear => to_pixels(simd, block, to, &Cubes::new(entries, table, &block.scratch)),
     }));
 }
 
