@@ -134,7 +134,8 @@ mod tests {
         });
         assert!(most_held.into_inner() <= 10);
         assert!(most_running.into_inner() > 1, "frames run beside each other");
-        assert_eq!((budget.taken().bytes, budget.taken().frames), (0, 0));
+        let left = budget.taken();
+        assert_eq!((left.bytes, left.frames), (0, 0));
     }
 
     #[test]
