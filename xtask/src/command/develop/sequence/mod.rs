@@ -60,11 +60,14 @@ pub(super) fn run(
     whole::remove_leftovers(frames.iter().map(|frame| frame.output.as_path()));
     let at_once = rayon::current_num_threads().min(frames.len());
     let tally = Arc::new(Tally::new(frames.len()));
-    whole::last_words({
-        let tally = Arc::clone(&tally);
-        move || tally.last_words()
-    });
     let mut display = Display::new(frames.len());
+    whole::last_words({
+        let (tally, bar) = (Arc::clone(&tally), display.bar.clone());
+        move || {
+            bar.finish_and_clear();
+            tally.last_words()
+        }
+    });
     let outcomes = clock.time("develop", || {
         let budget = Budget::new(memory);
         develop_frames(settings, &recipe, &frames, &budget, at_once, &tally, |outcome| display.show(&tally, outcome))
@@ -74,7 +77,7 @@ pub(super) fn run(
     let report = summary.report(&settings.process, &frames, &outcomes, &clock);
     if failed > 0 {
         crate::print(&report)?;
-        bail!("{failed} of {} pictures were not developed", frames.len());
+        bail!("{failed} of {} frames were not developed", frames.len());
     }
     Ok(report)
 }

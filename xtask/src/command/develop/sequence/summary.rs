@@ -48,7 +48,7 @@ impl Summary {
         let _ = writeln!(text, "{}   {}{}", self.output, process.name(), stops(developed.iter().map(|one| one.ev)));
         let _ = writeln!(
             text,
-            "  {} pictures: {} developed, {already_done} already done, {} failed",
+            "  {} frames: {} developed, {already_done} already done, {} failed",
             frames.len(),
             developed.len(),
             failures.len()

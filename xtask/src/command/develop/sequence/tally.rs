@@ -85,7 +85,7 @@ const LINE_EVERY: Duration = Duration::from_secs(10);
 
 /// Shows a [`Tally`] on the standard error.
 pub(super) struct Display {
-    bar: ProgressBar,
+    pub(super) bar: ProgressBar,
     last_line: Instant,
 }
 
