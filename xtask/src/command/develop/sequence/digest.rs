@@ -18,7 +18,8 @@ use crate::picture::{Bits, text_of_finished};
 pub(super) struct Recipe(String);
 
 impl Recipe {
-    /// Of the settings: look, options, program.
+    /// Of the settings: look, options, program. What a form makes of the film counts by the form's description and
+    /// the program's version.
     ///
     /// # Errors
     /// Those of compiling the look.
