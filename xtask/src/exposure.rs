@@ -171,6 +171,13 @@ impl SceneExposure {
         self.metered
     }
 
+    /// All that [`apply`](Self::apply) depends on, in one line.
+    pub(crate) fn in_numbers(&self) -> String {
+        let buffer =
+            self.buffer.map_or("no buffer".to_owned(), |(format, scale)| format!("{} of {scale:?}", format.name()));
+        format!("times {:?}, {buffer}", self.factor)
+    }
+
     /// A pixel as the film gets it. NaN and infinities stay what they are unless a buffer takes them.
     pub(crate) fn apply(&self, rgb: [f32; 3]) -> [f32; 3] {
         let stored = match self.buffer {

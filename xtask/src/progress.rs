@@ -37,6 +37,11 @@ impl Clock {
         parts.map(|(part, time)| format!("{part} {:.2} s", time.as_secs_f64())).collect::<Vec<_>>().join(", ")
     }
 
+    /// How long the parts of one name took.
+    pub(crate) fn of(&self, part: &str) -> Duration {
+        self.parts.iter().filter(|(name, _)| *name == part).map(|(_, time)| *time).sum()
+    }
+
     /// Seconds by part.
     pub(crate) fn json(&self) -> serde_json::Value {
         self.parts

@@ -126,6 +126,18 @@ impl Channels {
 pub(super) trait Bands: Send {
     /// Fills `band` with the next rows; without rows where there are no more.
     fn next_into(&mut self, band: &mut Band) -> Result<()>;
+
+    /// What that takes.
+    fn holds(&self) -> Holds;
+}
+
+/// The most that a reader holds while it fills a band.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Holds {
+    /// Pixels of the band.
+    pub(crate) band_pixels: u64,
+    /// Bytes of all else.
+    pub(crate) bytes_beside: u64,
 }
 
 /// A picture that is written from top to bottom.

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use super::{
     Band, Bands, Channels, RowMut, alpha,
-    band::blocks_in_band,
+    band::{Holds, blocks_in_band},
     dwa,
     exr_blocks::Blocks,
     exr_layout::{Layout, Plane},
@@ -73,6 +73,19 @@ impl<R: Read + Seek + Send> Bands for ExrBands<R> {
         }
         self.next = rows.end;
         Ok(())
+    }
+
+    fn holds(&self) -> Holds {
+        let grid = self.blocks.grid();
+        let Vec2(width, height) = self.header().layer_size;
+        let down = blocks_in_band(width, grid.block.1).min(grid.count.1);
+        let block = grid.bytes(self.header()).max(1);
+        let batch = (BATCH_BYTES / block).clamp(1, down.saturating_mul(grid.count.0));
+        Holds {
+            band_pixels: width as u64 * (down * grid.block.1).min(height) as u64,
+            // Packed, unpacked, and on the way.
+            bytes_beside: 3 * (batch as u64).saturating_mul(block as u64),
+        }
     }
 }
 

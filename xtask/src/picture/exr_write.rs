@@ -29,12 +29,12 @@ const BLOCK_ROWS: usize = 16;
 /// Writes `picture` as a linear OpenEXR file of `f32` RGB or premultiplied RGBA, ZIP-compressed, with its windows and
 /// primaries.
 ///
-/// Nothing is clipped. `texts` become string attributes; `Software` is the standard one of that name. The order of the
-/// others in the file is not fixed.
+/// Nothing is clipped. `texts` become string attributes; `Software` is the standard one of that name. The crate keeps
+/// others in unordered maps, one of the part and one of the picture: two have a fixed order, a third is refused.
 ///
 /// # Errors
 /// One sentence that starts with `path`: see [`write_whole`]; or a picture whose sizes do not fit each other or the
-/// format.
+/// format, or texts as above.
 pub(crate) fn write_exr(path: &Path, picture: &Picture, texts: &[(&str, &str)]) -> Result<()> {
     write_whole(path, |file| write_to(file, picture, texts))
 }
@@ -182,19 +182,21 @@ fn header(picture: &Description, texts: &[(&str, &str)]) -> Result<Header> {
         Channels::Rgba => &["A", "B", "G", "R"],
     };
     let channels = names.iter().map(|name| ChannelDescription::named(*name, SampleType::F32)).collect();
+    let [x, y] = picture.windows.data_origin;
+    let mut own = LayerAttributes::default().with_position(Vec2(x, y));
+    let mut shared = shared_attributes(picture);
+    add_texts(texts, &mut own, &mut shared)?;
     Ok(Header::new(Text::default(), (picture.width, picture.height), channels)
         .with_encoding(Compression::ZIP16, BlockDescription::ScanLines, LineOrder::Increasing)
-        .with_attributes(own_attributes(picture, texts)?)
-        .with_shared_attributes(shared_attributes(picture)))
+        .with_attributes(own)
+        .with_shared_attributes(shared))
 }
 
 fn cannot_write(error: &exr::error::Error) -> anyhow::Error {
     anyhow!("cannot be written: {error}")
 }
 
-fn own_attributes(picture: &Description, texts: &[(&str, &str)]) -> Result<LayerAttributes> {
-    let [x, y] = picture.windows.data_origin;
-    let mut attributes = LayerAttributes::default().with_position(Vec2(x, y));
+fn add_texts(texts: &[(&str, &str)], own: &mut LayerAttributes, shared: &mut ImageAttributes) -> Result<()> {
     for (key, value) in texts {
         let text = |string: &str| {
             Text::new_or_none(string)
@@ -203,13 +205,18 @@ fn own_attributes(picture: &Description, texts: &[(&str, &str)]) -> Result<Layer
         if key.is_empty() || key.len() > 255 {
             bail!("a text's key has {} bytes, expected 1 to 255", key.len());
         }
+        let (name, value) = (text(key)?, text(value)?);
         if *key == "Software" {
-            attributes.software_name = Some(text(value)?);
+            own.software_name = Some(value);
+        } else if own.other.is_empty() {
+            own.other.insert(name, AttributeValue::Text(value));
+        } else if shared.other.is_empty() {
+            shared.other.insert(name, AttributeValue::Text(value));
         } else {
-            attributes.other.insert(text(key)?, AttributeValue::Text(text(value)?));
+            bail!("the text `{key}` cannot be written, as it is the third beside `Software`, expected two at most");
         }
     }
-    Ok(attributes)
+    Ok(())
 }
 
 fn shared_attributes(picture: &Description) -> ImageAttributes {

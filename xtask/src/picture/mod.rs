@@ -23,6 +23,7 @@ mod exr_boxes;
 mod exr_layout;
 mod exr_read;
 mod exr_write;
+mod finished;
 mod guard;
 mod limits;
 mod png_read;
@@ -41,8 +42,9 @@ use anyhow::{Result, anyhow, bail};
 
 use self::band::Bands;
 pub(crate) use self::{
-    band::{Band, BandSink, BandView, Channels, RowMut},
+    band::{Band, BandSink, BandView, Channels, Holds, RowMut},
     exr_write::{write_exr, write_exr_bands},
+    finished::text_of_finished,
     limits::Limits,
     png_write::{Bits, Coding, ColourTag, write_png_bands},
 };
@@ -205,6 +207,11 @@ impl PictureReader<'_> {
     /// What the file says of the picture.
     pub(crate) fn description(&self) -> &Description {
         &self.description
+    }
+
+    /// What [`next_into`](Self::next_into) takes.
+    pub(crate) fn holds(&self) -> Holds {
+        self.bands.holds()
     }
 
     /// Fills `band` with the next rows, top to bottom; without rows after the last.

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::{
     Band, Bands, Channels, Description, Limits, RowMut, Source,
-    band::blocks_in_band,
+    band::{Holds, blocks_in_band},
     guard::guarded,
     limits::{allocate, check_claim},
 };
@@ -94,6 +94,12 @@ impl<R: BufRead + Seek + Send> Bands for PngBands<R> {
         }
         self.next += rows;
         Ok(())
+    }
+
+    fn holds(&self) -> Holds {
+        let rows = blocks_in_band(self.width, 1).min(self.height);
+        let held = if self.interlaced { self.height } else { rows };
+        Holds { band_pixels: self.width as u64 * rows as u64, bytes_beside: self.row_bytes as u64 * held as u64 }
     }
 }
 

@@ -11,7 +11,9 @@ use tiff::{
 };
 
 use super::{
-    Band, Bands, Channels, Description, Limits, RowMut, Samples, Source, alpha, band::blocks_in_band, guard::guarded,
+    Band, Bands, Channels, Description, Limits, RowMut, Samples, Source, alpha,
+    band::{Holds, blocks_in_band},
+    guard::guarded,
     limits::check_claim,
 };
 
@@ -107,6 +109,7 @@ fn start<'a, R: Read + Seek + Send + 'a>(
         size: [width, height],
         chunk,
         samples,
+        sample_bytes: u64::from(bits / 8),
         channels,
         planes: layout.planes,
         coverage,
@@ -130,6 +133,7 @@ struct TiffBands<R: Read + Seek> {
     chunk: [usize; 2],
     /// Samples of a pixel.
     samples: usize,
+    sample_bytes: u64,
     channels: Channels,
     /// 1 where a pixel's samples lie side by side, else one plane a sample.
     planes: usize,
@@ -158,6 +162,16 @@ impl<R: Read + Seek + Send> Bands for TiffBands<R> {
         }
         self.next = rows.end;
         Ok(())
+    }
+
+    fn holds(&self) -> Holds {
+        let [width, height] = self.size.map(|side| side as u64);
+        let [across, down] = self.chunk.map(|side| side as u64);
+        let rows = (blocks_in_band(self.size[0], self.chunk[1]) as u64).saturating_mul(down).min(height);
+        let samples = if self.planes > 1 { 1 } else { self.samples as u64 };
+        // Packed and unpacked.
+        let bytes_beside = 2 * across.saturating_mul(down).saturating_mul(samples * self.sample_bytes);
+        Holds { band_pixels: width * rows, bytes_beside }
     }
 }
 

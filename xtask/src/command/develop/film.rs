@@ -42,6 +42,14 @@ impl Film {
         Ok(Self::Compiled(Box::new(Compiled::new(&film, process, &Recipe::usual(form), None)?)))
     }
 
+    /// Its form, in words.
+    pub(super) fn describe(&self) -> String {
+        match self {
+            Self::Exact(_) => "reference".to_owned(),
+            Self::Compiled(compiled) => compiled.describe(),
+        }
+    }
+
     /// Scene-linear to display-coded, in place; `progress` counts rows.
     pub(super) fn develop(&self, band: &mut Band, progress: &ProgressBar) {
         match self {

@@ -19,22 +19,22 @@ use crate::picture::{
 };
 
 /// Everything that decides how a picture is developed; the same for all pictures of a run.
-pub(crate) struct Settings {
-    pub(crate) process: Process,
-    pub(crate) film: Film,
-    pub(crate) exposure: Exposure,
+pub(super) struct Settings {
+    pub(super) process: Process,
+    pub(super) film: Film,
+    pub(super) exposure: Exposure,
     /// What camera and frame buffer make of a picture's numbers.
-    pub(crate) scene: SceneExposure,
+    pub(super) scene: SceneExposure,
     /// Transfer curve of what comes in, where it was named.
-    pub(crate) input_coding: Option<TransferCurve>,
-    pub(crate) input_primaries: InputPrimaries,
-    pub(crate) target: Target,
-    pub(crate) limits: Limits,
+    pub(super) input_coding: Option<TransferCurve>,
+    pub(super) input_primaries: InputPrimaries,
+    pub(super) target: Target,
+    pub(super) limits: Limits,
 }
 
 /// What is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Target {
+pub(super) enum Target {
     /// The display window, display-coded.
     Png(Bits),
     /// The data window, linear.
@@ -43,27 +43,35 @@ pub(crate) enum Target {
 
 /// What became of a picture.
 #[derive(Debug)]
-pub(crate) struct Developed {
+pub(super) struct Developed {
     /// Width and height of what was written.
-    pub(crate) size: [usize; 2],
+    pub(super) size: [usize; 2],
     /// The exposure it was given, in stops.
-    pub(crate) ev: f64,
+    pub(super) ev: f64,
     /// What the user should know.
-    pub(crate) notes: Vec<String>,
-    pub(crate) busy: Busy,
+    pub(super) notes: Vec<String>,
+    pub(super) busy: Busy,
 }
+
+/// One picture to develop.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Order<'a> {
+    pub(super) input: &'a Path,
+    pub(super) output: &'a Path,
+    /// Written into the output, to be known again by.
+    pub(super) digest: Option<&'a str>,
+}
+
+/// Where the output holds [`Order::digest`].
+pub(super) const DIGEST_KEY: &str = "onelight job";
 
 /// Develops the picture in one file into another. May run beside others: it holds three bands of each picture (see
 /// [`pass`]), and the threads are shared. `progress` counts rows, those of a first look for [`Exposure::Auto`] too.
 ///
 /// # Errors
 /// One sentence that starts with the path it is about; then `output` is as it was before.
-pub(crate) fn develop_picture(
-    settings: &Settings,
-    input: &Path,
-    output: &Path,
-    progress: &ProgressBar,
-) -> Result<Developed> {
+pub(super) fn develop_picture(settings: &Settings, order: &Order<'_>, progress: &ProgressBar) -> Result<Developed> {
+    let input = order.input;
     let Settings { process, film, exposure, input_primaries, target, .. } = settings;
     let mut picture = open(input, &settings.limits)?;
     let description = picture.description().clone();
@@ -97,7 +105,7 @@ pub(crate) fn develop_picture(
         beyond += film.max().map_or(0, |max| brighter(band, max));
         film.develop(band, progress);
     };
-    let busy = write(output, *target, process, &description, |sink| pass(&mut picture, develop, sink))?;
+    let busy = write(order, *target, process, &description, |sink| pass(&mut picture, develop, sink))?;
 
     notes.extend(meter.notes(*exposure, ev));
     if beyond > 0 {
@@ -121,7 +129,7 @@ fn brighter(band: &Band, max: f64) -> usize {
 
 /// Writes what `fill` hands over as the process's display sees it.
 fn write<T>(
-    path: &Path,
+    order: &Order<'_>,
     target: Target,
     process: &Process,
     scene: &Description,
@@ -133,7 +141,9 @@ fn write<T>(
     let primaries = Chromaticities { red, green, blue, white: xy(space.white) };
     let look = process.to_toml();
     let software = format!("onelight {}", env!("CARGO_PKG_VERSION"));
-    let texts = [("Software", software.as_str()), ("onelight look", look.as_str())];
+    let mut texts = vec![("Software", software.as_str()), ("onelight look", look.as_str())];
+    texts.extend(order.digest.map(|digest| (DIGEST_KEY, digest)));
+    let path = order.output;
     let picture = Description { primaries: Some(primaries), ..scene.clone() };
     match target {
         Target::Exr => write_exr_bands(path, &picture, &texts, fill),

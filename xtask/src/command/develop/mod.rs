@@ -3,6 +3,7 @@ pub(crate) mod exposure;
 mod film;
 mod job;
 mod light;
+mod sequence;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -14,22 +15,27 @@ use serde_json::json;
 
 use self::exposure::Exposure;
 use self::film::{Film, Form};
-use self::job::{Developed, Settings, Target, develop_picture};
+use self::job::{Developed, Order, Settings, Target, develop_picture};
 use self::light::InputPrimaries;
+use self::sequence::{FrameNumbers, Memory, Shard, Summary};
 use crate::exposure::ExposureArguments;
 use crate::look::{LookArguments, words};
 use crate::picture::{Bits, Limits};
 use crate::progress::{Clock, bar};
-use crate::{Report, folders};
+use crate::{Report, folders, whole};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Scene-linear picture: EXR, or 16-bit or float TIFF or PNG
+    /// Scene-linear picture: EXR, or 16-bit or float TIFF or PNG; many as 'shot.####.exr', shot.%04d.exr or '*.exr'
     #[arg(value_name = "IN")]
     input: PathBuf,
-    /// Developed picture: .png (display-coded) or .exr (linear, display-referred, not clipped)
+    /// Developed picture: .png (display-coded) or .exr (linear, display-referred, not clipped); many as IN says it
     #[arg(value_name = "OUT")]
     output: PathBuf,
+    #[arg(hide = true)]
+    more: Vec<PathBuf>,
+    #[command(flatten)]
+    many: Many,
     #[command(flatten)]
     look: LookArguments,
     #[command(flatten)]
@@ -46,13 +52,39 @@ pub(crate) struct Arguments {
     /// Bits of a PNG that goes out [default: 8]
     #[arg(long, value_parser = ["8", "16"], value_name = "8|16")]
     bits: Option<String>,
+    /// Most pixels of a picture that is read
+    #[arg(long, default_value_t = Limits::default().max_pixels, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    max_pixels: u64,
     /// Print the result as one JSON object
     #[arg(long)]
     json: bool,
 }
 
+/// Many pictures in one run.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Many pictures (docs/using.md, docs/farm.md)")]
+struct Many {
+    /// Frames, such as 1001-1100, 1001-1010,1020 or 1001-1100x2 [default: all that are there]
+    #[arg(long, value_name = "FRAMES")]
+    frames: Option<FrameNumbers>,
+    /// Develop only part K of N, every Nth picture from the Kth on
+    #[arg(long, value_name = "K/N")]
+    shard: Option<Shard>,
+    /// GiB that pictures beside each other may take; one that takes more runs alone [default: 1]
+    #[arg(long, value_name = "GIB")]
+    memory: Option<Memory>,
+}
+
 pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let mut clock = Clock::default();
+    if let Some(more) = arguments.more.first() {
+        bail!("{}: is a third name, expected two (quote a pattern: develop 'in/*.exr' 'out/*.png')", more.display());
+    }
+    let Many { frames, shard, memory } = &arguments.many;
+    let plan = sequence::plan(&arguments.input, &arguments.output, frames.as_ref(), *shard)?;
+    if let Some(plan) = &plan {
+        sequence::check_exposure(plan, arguments.ev)?;
+    }
     let target = target(&arguments.output, arguments.bits.as_deref())?;
     if same_file(&arguments.input, &arguments.output) {
         bail!(
@@ -85,18 +117,24 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
             InputPrimaries::OfFile
         },
         target,
-        limits: Limits::default(),
+        limits: Limits { max_pixels: arguments.max_pixels, ..Limits::default() },
     };
+    let output = folders::shown(&arguments.output);
+    if let Some(plan) = plan {
+        let input = arguments.input.display().to_string();
+        let summary = Summary { input, output, notes, as_json: arguments.json };
+        return sequence::run(&settings, plan, memory.unwrap_or_default(), clock, summary);
+    }
+    whole::remove_leftovers([arguments.output.as_path()]);
     let progress = bar("developing", 0);
-    let developed =
-        clock.time("develop", || develop_picture(&settings, &arguments.input, &arguments.output, &progress));
+    let order = Order { input: &arguments.input, output: &arguments.output, digest: None };
+    let developed = clock.time("develop", || develop_picture(&settings, &order, &progress));
     progress.finish_and_clear();
     let Developed { size, ev, notes: more, busy } = developed?;
     notes.extend(more);
 
     let process = &settings.process;
     let mut text = String::new();
-    let output = folders::shown(&arguments.output);
     let _ = writeln!(text, "{output}   {}x{}, {}, {ev:+.2} EV", size[0], size[1], process.name());
     for note in &notes {
         let _ = writeln!(text, "  note: {note}");

@@ -17,6 +17,7 @@ fn opened(bytes: &[u8]) -> (Description, Box<dyn Bands + '_>) {
 /// Pixels of the largest band; the number of bands.
 fn bands(bytes: &[u8]) -> (usize, usize) {
     let (description, mut bands) = opened(bytes);
+    let holds = bands.holds();
     let (mut largest, mut count, mut rows, mut band) = (0, 0, 0, Band::default());
     loop {
         bands.next_into(&mut band).unwrap();
@@ -27,6 +28,7 @@ fn bands(bytes: &[u8]) -> (usize, usize) {
         (largest, count, rows) = (largest.max(band.rgb.len()), count + 1, rows + band.rows());
     }
     assert_eq!(rows, description.height);
+    assert_eq!(holds.band_pixels, largest as u64);
     // The end stays the end.
     bands.next_into(&mut band).unwrap();
     assert_eq!(band.rows(), 0);

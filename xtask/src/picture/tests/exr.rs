@@ -105,7 +105,12 @@ fn an_impossible_pixel_aspect_is_one() {
 
 #[test]
 fn texts_are_attributes() {
-    let bytes = write(&sample(2, 2), &[("Software", "onelight 1"), ("onelight look", "day")]);
+    let texts = [("Software", "onelight 1"), ("onelight look", "day"), ("onelight job", "a1")];
+    let bytes = write(&sample(2, 2), &texts);
+    // The same file each time.
+    (0..16).for_each(|_| assert!(write(&sample(2, 2), &texts) == bytes));
+    let third = exr_write::write_to(Cursor::new(Vec::new()), &sample(2, 2), &[&texts[..], &[("z", "z")]].concat());
+    assert!(third.unwrap_err().to_string().contains("two at most"));
     for attribute in [&b"software\0string\0\x0a\0\0\0onelight 1"[..], b"onelight look\0string\0\x03\0\0\0day"] {
         assert!(bytes.windows(attribute.len()).any(|window| window == attribute));
     }

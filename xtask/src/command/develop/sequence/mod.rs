@@ -1,0 +1,83 @@
+//! Many pictures in one run: a job that can be stopped, killed, shared out, and run again.
+
+mod budget;
+mod digest;
+mod numbers;
+mod pattern;
+mod plan;
+mod runner;
+mod summary;
+mod tally;
+
+use std::sync::Arc;
+
+use anyhow::{Result, bail};
+
+pub(crate) use self::budget::Memory;
+pub(super) use self::numbers::{FrameNumbers, Shard};
+pub(super) use self::plan::{Plan, plan};
+pub(super) use self::summary::Summary;
+use self::{
+    budget::Budget,
+    digest::Recipe,
+    runner::{Outcome, develop_frames},
+    tally::{Display, Tally},
+};
+use super::exposure::Exposure;
+use super::job::Settings;
+use crate::progress::Clock;
+use crate::{Report, whole};
+
+/// Refuses to expose each frame of a shot by itself.
+///
+/// # Errors
+/// One sentence.
+pub(super) fn check_exposure(plan: &Plan, exposure: Exposure) -> Result<()> {
+    match plan.frames.first() {
+        Some(frame) if plan.numbered && exposure == Exposure::Auto => bail!(
+            "--ev auto would expose each frame by itself, so that the shot flickers, expected stops for all of them (for \
+             {} alone --ev auto shows its own)",
+            frame.input.display()
+        ),
+        _ => Ok(()),
+    }
+}
+
+/// Develops the pictures of a plan. Where some fail, the rest go on, and the report is printed before the error.
+///
+/// # Errors
+/// A look that cannot be compiled; how many frames failed.
+pub(super) fn run(
+    settings: &Settings,
+    plan: Plan,
+    memory: Memory,
+    mut clock: Clock,
+    mut summary: Summary,
+) -> Result<Report> {
+    let Plan { frames, notes, .. } = plan;
+    summary.notes.extend(notes);
+    let recipe = clock.time("compile", || Recipe::new(settings))?;
+    whole::remove_leftovers(frames.iter().map(|frame| frame.output.as_path()));
+    let at_once = rayon::current_num_threads().min(frames.len());
+    let tally = Arc::new(Tally::new(frames.len()));
+    let mut display = Display::new(frames.len());
+    whole::last_words({
+        let (tally, bar) = (Arc::clone(&tally), display.bar.clone());
+        move || {
+            bar.finish_and_clear();
+            tally.last_words()
+        }
+    });
+    let outcomes = clock.time("develop", || {
+        let budget = Budget::new(memory);
+        develop_frames(settings, &recipe, &frames, &budget, at_once, &tally, |outcome| display.show(&tally, outcome))
+    });
+    display.finish();
+    let failed = outcomes.iter().filter(|outcome| matches!(outcome, Outcome::Failed(_))).count();
+    let report = summary.report(&settings.process, &frames, &outcomes, &clock);
+    if failed > 0 {
+        crate::print(&report)?;
+        bail!("{failed} of {} frames were not developed", frames.len());
+    }
+    Ok(report)
+}
