@@ -59,10 +59,38 @@ const HUES: [[f64; 3]; 6] =
 /// Light and dark skin under the white of the scene, about as bright as grey.
 const SKIN: [[f64; 3]; 2] = [[2.1, 1.4, 1.1], [1.5, 0.8, 0.6]];
 
+/// Where something was worst or wrong before, with the look.
+const FOUND: [[f32; 3]; 16] = [
+    // Rounding of sRGB to sRGB, 1e-17, drowned what is not huge: dE 97 on any film.
+    [-f32::MAX, -f32::MAX, 0.18],
+    [f32::INFINITY, 0.18, f32::NEG_INFINITY],
+    // Falls of luminance: 5207 on 2383, Portra 400 on 2393, Gold 200 on 5386.
+    [53.670925, 53.670925, 53.670925],
+    [17.435673, 17.435673, 17.435673],
+    [78.03605, 78.03605, 78.03605],
+    // Float32 against float64, and vectors against float32: 5207 on 2383 in either aim, 5203 on 2383, Portra 400 on 3523XD, 5219
+    // on 3523XD.
+    [0.0, 2.592, 11.52],
+    [0.0, 0.0, 49.73084],
+    [0.0, 0.0, 77.49702],
+    [0.0, 0.0, 43.89756],
+    [0.0, 0.0, 12.693947],
+    [0.0, 0.80444676, 0.80444676],
+    // The direct form against the film: 5213 on 5386, 5207 on 2383.
+    [0.192, 0.0, 11.52],
+    [0.0, 0.3429497, 0.0],
+    // The structured form: Portra 400 on 3523XD, 5207 on 2383.
+    [0.0, 2.88, 0.072],
+    [0.096, 0.0, 2.88],
+    // The plain form short of its end: 5207 on 2383.
+    [0.0, 0.0, 58.731754],
+];
+
 /// Those that no film decides.
 pub(super) fn general(space: WorkingSpace) -> anyhow::Result<Vec<Case>> {
     let (nan, inf) = (f32::NAN, f32::INFINITY);
     Ok(vec![
+        Case::new("found before").with(Order::Loose, FOUND),
         Case::new("zeros").with(Order::Loose, triples(&[0.0, -0.0, 0.18, 1.0])),
         subnormals(),
         decades(),

@@ -4,13 +4,13 @@ use anyhow::Result;
 use onelight::lut::Sample;
 use onelight::spectra::ciede2000;
 use onelight::spectra::nalgebra::Vector3;
-use onelight::{Look, Process, Word};
+use onelight::{Look, Process, TransferCurve, Word};
 use rayon::prelude::*;
 
 use super::cases::{Case, Order, Strand, general};
 use super::gpu::Card;
 use super::places;
-use super::ways::{Way, ways};
+use super::ways::{Kind, Way, ways};
 use crate::compiled::{Compiled, Form, Recipe};
 
 /// What can go wrong.
@@ -24,9 +24,9 @@ pub(super) enum Quantity {
     Step,
     /// The same less the film's own at this place.
     Excess,
-    /// From the form's own numbers in float64, display-coded.
+    /// From the form's own numbers in float64, sRGB-coded.
     Rounding,
-    /// From one pixel at a time in float32, display-coded.
+    /// From one pixel at a time in float32, sRGB-coded.
     Vectors,
     /// The same in pictures of 8 bits, codes.
     Codes,
@@ -64,6 +64,7 @@ pub(super) struct Row {
     /// `film`, the form's name, or two of them.
     pub(super) form: String,
     pub(super) way: String,
+    pub(super) kind: Kind,
     pub(super) case: &'static str,
     pub(super) colours: usize,
     pub(super) found: Vec<(Quantity, Worst)>,
@@ -80,13 +81,25 @@ struct Subject {
     look: Look,
     luminance: Vector3<f64>,
     cases: Vec<Case>,
+    /// All of them, case by case.
+    colours: Vec<[f32; 3]>,
     film: Seen,
 }
 
 /// Display-linear colours with what is seen of them.
 struct Seen {
     linear: Vec<[f64; 3]>,
+    /// As sRGB has them, whatever the look's own coding: one that begins with a power would make much of what is nothing.
+    srgb: Vec<[f64; 3]>,
     lab: Vec<[f64; 3]>,
+}
+
+/// A form with the brightest scene value that it tells from brighter ones.
+struct Measured {
+    form: Form,
+    end: Option<f64>,
+    ways: Vec<Way>,
+    seen: Vec<Seen>,
 }
 
 /// A process measured in every way; a call of `progress` for each of [`STEPS`].
@@ -100,18 +113,16 @@ pub(super) fn rows(process: &Process, card: Option<&Card>, progress: impl Fn()) 
     let subject = Subject::new(process, look, &forms)?;
     let mut rows = subject.of_film();
     progress();
-    let mut single = Vec::new();
-    for (form, kind) in forms.iter().zip(FORMS) {
-        let ways = ways(form, &subject.colours(), card)?;
+    let mut measured = Vec::new();
+    for (compiled, form) in forms.iter().zip(FORMS) {
+        let ways = ways(compiled, &subject.colours, card)?;
         let seen = ways.par_iter().map(|way| subject.seen(&way.coded)).collect::<Result<Vec<_>>>()?;
-        rows.extend(ways.iter().zip(&seen).flat_map(|(way, seen)| subject.of_way(&kind.word(), way, seen, &ways)));
-        single.extend(ways.iter().zip(seen).filter(|(way, _)| way.name == "float32").map(|(_, seen)| (kind, seen)));
+        measured.push(Measured { form, end: compiled.max(), ways, seen });
         progress();
     }
-    for (i, (one, a)) in single.iter().enumerate() {
-        for (other, b) in &single[i + 1..] {
-            rows.extend(subject.between(&format!("{} and {}", one.word(), other.word()), a, b));
-        }
+    rows.extend(measured.iter().flat_map(|one| subject.of_form(one)));
+    for (i, one) in measured.iter().enumerate() {
+        rows.extend(measured[i + 1..].iter().flat_map(|other| subject.between(one, other)));
     }
     Ok(rows)
 }
@@ -133,27 +144,21 @@ impl Subject {
         }
         let luminance = process.output_space.space().to_xyz()?.row(1).transpose();
         let name = format!("{}, {} aim", process.name(), process.aim.word());
-        let film = Seen { linear: Vec::new(), lab: Vec::new() };
-        let mut subject = Self { name, look, luminance, cases, film };
-        let linear = subject.colours().par_iter().map(|rgb| subject.look.develop_linear(rgb.map(f64::from))).collect();
-        subject.film = subject.seen_linear(linear)?;
-        Ok(subject)
-    }
-
-    /// All colours, case by case.
-    fn colours(&self) -> Vec<[f32; 3]> {
-        self.cases.iter().flat_map(|case| &case.strands).flat_map(|strand| &strand.colours).copied().collect()
+        let strands = cases.iter().flat_map(|case| &case.strands);
+        let colours: Vec<[f32; 3]> = strands.flat_map(|strand| &strand.colours).copied().collect();
+        let linear = colours.par_iter().map(|rgb| look.develop_linear(rgb.map(f64::from))).collect();
+        let film = Seen::new(&look, linear)?;
+        Ok(Self { name, look, luminance, cases, colours, film })
     }
 
     fn seen(&self, coded: &[[f64; 3]]) -> Result<Seen> {
         let coding = self.look.coding();
-        self.seen_linear(coded.iter().map(|rgb| rgb.map(|v| coding.decode(v))).collect())
+        Seen::new(&self.look, coded.iter().map(|rgb| rgb.map(|v| coding.decode(v))).collect())
     }
 
-    fn seen_linear(&self, linear: Vec<[f64; 3]>) -> Result<Seen> {
-        let difference = self.look.difference()?;
-        let lab = linear.par_iter().map(|rgb| difference.lab(*rgb)).collect();
-        Ok(Seen { linear, lab })
+    /// Whether a form that ends there tells all of a colour.
+    fn is_within(&self, end: Option<f64>, i: usize) -> bool {
+        end.is_none_or(|end| self.colours[i].iter().all(|v| v.is_nan() || f64::from(*v) <= end))
     }
 
     /// Every case with the number of its first colour.
@@ -173,58 +178,81 @@ impl Subject {
                 (Quantity::Fall, self.fall(case, first, &self.film)),
                 (Quantity::Step, largest(case, first, |a, b| self.film.step(a, b))),
             ];
-            self.row(("film", "float64"), case, found, None)
+            self.row(("film", "float64", Kind::Float64), case, found, None)
         };
         self.placed().map(row).collect()
     }
 
-    fn of_way(&self, form: &str, way: &Way, seen: &Seen, ways: &[Way]) -> Vec<Row> {
-        let [exact, single, ..] = ways else { return Vec::new() };
-        let is_exact = way.name == exact.name;
-        let is_single = way.name == single.name;
-        let apart = |other: &Way, i: usize| apart(way.coded[i], other.coded[i]);
+    fn of_form(&self, measured: &Measured) -> Vec<Row> {
+        let ways = measured.ways.iter().zip(&measured.seen);
+        ways.flat_map(|(way, seen)| self.of_way(measured, way, seen)).collect()
+    }
+
+    fn of_way(&self, measured: &Measured, way: &Way, seen: &Seen) -> Vec<Row> {
+        let ([exact, single, ..], [_, written, ..]) = (&measured.seen[..], &measured.ways[..]) else {
+            return Vec::new();
+        };
+        let form = measured.form.word();
+        let within = |i: usize| self.is_within(measured.end, i);
         let codes = |i: usize| {
             let codes = way.codes.as_ref().map_or([0; 3], |codes| codes[i]);
-            let expected = single.coded[i].map(|v| u8::from_f32(v as f32));
+            let expected = written.coded[i].map(|v| u8::from_f32(v as f32));
             f64::from((0..3).map(|c| codes[c].abs_diff(expected[c])).max().unwrap_or(0))
         };
-        let row = |(case, first)| {
-            let excess = |a, b| (seen.step(a, b) - self.film.step(a, b)).max(0.0);
-            let from_film = |i: usize| ciede2000(self.film.lab[i], seen.lab[i]);
+        let beyond_film = |a, b| (seen.step(a, b) - self.film.step(a, b)).max(0.0);
+        let from_film = |i: usize| ciede2000(self.film.lab[i], seen.lab[i]);
+        let row = |(case, first): (&Case, usize)| {
+            let excess = |a, b| if within(a) && within(b) { beyond_film(a, b) } else { 0.0 };
+            let from_film = |i| if within(i) { from_film(i) } else { 0.0 };
+            let apart = |other: &Seen| each(case, first, |i| apart(seen.srgb[i], other.srgb[i]));
             let found = [
                 (Quantity::NotFinite, Some(not_finite(case, first, &way.coded))),
                 (Quantity::Fall, self.fall(case, first, seen)),
                 (Quantity::Step, largest(case, first, |a, b| seen.step(a, b))),
                 (Quantity::Excess, largest(case, first, excess)),
-                (Quantity::Rounding, (!is_exact).then(|| each(case, first, |i| apart(exact, i)))),
-                (Quantity::Vectors, (!is_exact && !is_single).then(|| each(case, first, |i| apart(single, i)))),
+                (Quantity::Rounding, (way.kind != Kind::Float64).then(|| apart(exact))),
+                (Quantity::Vectors, matches!(way.kind, Kind::Vectors | Kind::Card).then(|| apart(single))),
                 (Quantity::Codes, way.codes.is_some().then(|| each(case, first, codes))),
                 (Quantity::Film, Some(each(case, first, from_film))),
             ];
-            self.row((form, &way.name), case, found, Some(mean(first, case.len(), from_film)))
+            let mean = mean((first..first + case.len()).filter(|i| within(*i)).map(from_film));
+            self.row((&form, &way.name, way.kind), case, found, mean)
         };
-        self.placed().map(row).collect()
+        let beyond = |(case, first): (&Case, usize)| {
+            let excess = |a, b| if within(a) && within(b) { 0.0 } else { beyond_film(a, b) };
+            let beyond = |i| if within(i) { 0.0 } else { from_film(i) };
+            let mean = mean((first..first + case.len()).filter(|i| !within(*i)).map(from_film))?;
+            let found =
+                [(Quantity::Excess, largest(case, first, excess)), (Quantity::Film, Some(each(case, first, beyond)))];
+            Some(self.row((&format!("{form} past its end"), &way.name, way.kind), case, found, Some(mean)))
+        };
+        self.placed().map(row).chain(self.placed().filter_map(beyond)).collect()
     }
 
-    fn between(&self, forms: &str, a: &Seen, b: &Seen) -> Vec<Row> {
+    /// Two forms, both by one pixel at a time in float32, where both know the light.
+    fn between(&self, one: &Measured, other: &Measured) -> Vec<Row> {
+        let ([_, a, ..], [_, b, ..]) = (&one.seen[..], &other.seen[..]) else { return Vec::new() };
+        let forms = format!("{} and {}", one.form.word(), other.form.word());
+        let within = |i: usize| self.is_within(one.end, i) && self.is_within(other.end, i);
         let row = |(case, first): (&Case, usize)| {
-            let between = |i: usize| ciede2000(a.lab[i], b.lab[i]);
+            let between = |i: usize| if within(i) { ciede2000(a.lab[i], b.lab[i]) } else { 0.0 };
             let found = [(Quantity::Forms, Some(each(case, first, between)))];
-            self.row((forms, "float32"), case, found, Some(mean(first, case.len(), between)))
+            let mean = mean((first..first + case.len()).filter(|i| within(*i)).map(between));
+            self.row((&forms, "float32", Kind::Float32), case, found, mean)
         };
         self.placed().map(row).collect()
     }
 
     fn row(
         &self,
-        (form, way): (&str, &str),
+        (form, way, kind): (&str, &str, Kind),
         case: &Case,
         found: impl IntoIterator<Item = (Quantity, Option<Worst>)>,
         mean: Option<f64>,
     ) -> Row {
         let found = found.into_iter().filter_map(|(quantity, worst)| Some((quantity, worst?))).collect();
         let (process, form, way) = (self.name.clone(), form.to_owned(), way.to_owned());
-        Row { process, form, way, case: case.name, colours: case.len(), found, mean }
+        Row { process, form, way, kind, case: case.name, colours: case.len(), found, mean }
     }
 
     /// By how much luminance falls on the greys of a case, if it has any.
@@ -235,6 +263,13 @@ impl Subject {
 }
 
 impl Seen {
+    fn new(look: &Look, linear: Vec<[f64; 3]>) -> Result<Self> {
+        let difference = look.difference()?;
+        let lab = linear.par_iter().map(|rgb| difference.lab(*rgb)).collect();
+        let srgb = linear.par_iter().map(|rgb| rgb.map(|v| TransferCurve::Srgb.encode(v))).collect();
+        Ok(Self { linear, srgb, lab })
+    }
+
     fn step(&self, a: usize, b: usize) -> f64 {
         ciede2000(self.lab[a], self.lab[b])
     }
@@ -291,6 +326,7 @@ fn larger(a: Worst, b: Worst) -> Worst {
     if b.value > a.value { b } else { a }
 }
 
-fn mean(first: usize, count: usize, of: impl Fn(usize) -> f64) -> f64 {
-    (first..first + count).map(of).sum::<f64>() / count.max(1) as f64
+fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let (sum, count) = values.fold((0.0, 0_usize), |(sum, count), value| (sum + value, count + 1));
+    (count > 0).then(|| sum / count as f64)
 }

@@ -6,6 +6,8 @@ mod law;
 mod measure;
 mod page;
 mod places;
+#[cfg(test)]
+mod tests;
 
 mod ways;
 

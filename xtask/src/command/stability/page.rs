@@ -34,18 +34,26 @@ impl Contents<'_> {
         for quantity in Quantity::ALL {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "{}", title(quantity));
-            for line in self.lines(quantity) {
+            let (none, some): (Vec<_>, Vec<_>) =
+                self.lines(quantity).into_iter().partition(|line| line.worst.value == 0.0);
+            for line in some {
                 let Line { row, worst, limit } = &line;
-                let limit = limit.map_or_else(String::new, |limit| format!("of {}", figure(quantity, limit)));
-                let broken = if line.is_kept() { "" } else { "  BROKEN" };
-                let place = if worst.value == 0.0 {
-                    String::new()
-                } else {
-                    format!("{} at {}; {}", row.case, scene(worst.at), row.process)
-                };
                 let form = format!("{}, {}", row.form, row.way);
                 let value = figure(quantity, worst.value);
-                let _ = writeln!(text, "  {form:34} {value:>8} {limit:11} {place}{broken}");
+                let limit = limit.map_or_else(String::new, |limit| format!("of {}", figure(quantity, limit)));
+                let broken = if line.is_kept() { "" } else { "BROKEN: " };
+                let _ = writeln!(
+                    text,
+                    "  {form:34} {value:>8} {limit:11} {broken}{} at {}; {}",
+                    row.case,
+                    scene(worst.at),
+                    row.process
+                );
+            }
+            if !none.is_empty() {
+                let forms: Vec<String> =
+                    none.iter().map(|line| format!("{}, {}", line.row.form, line.row.kind.word())).collect();
+                let _ = writeln!(text, "  {:34} {:>8}", forms.join("; "), "none");
             }
         }
         let broken = self.broken();
@@ -79,7 +87,7 @@ impl Contents<'_> {
         let found = |quantity: Quantity, row: &Row, worst: &Worst| {
             json!({
                 "value": worst.value,
-                "limit": limit(&row.form, &row.way, quantity),
+                "limit": limit(row, quantity),
                 // As text: JSON has no infinities.
                 "scene": worst.at.map(number),
             })
@@ -131,7 +139,7 @@ impl Contents<'_> {
     /// How many rows break a limit.
     fn broken(&self) -> usize {
         let breaks = |row: &Row, quantity: Quantity, worst: &Worst| {
-            limit(&row.form, &row.way, quantity).is_some_and(|limit| worst.value > limit)
+            limit(row, quantity).is_some_and(|limit| worst.value > limit)
         };
         self.rows.iter().map(|row| row.found.iter().filter(|(q, worst)| breaks(row, *q, worst)).count()).sum()
     }
@@ -141,7 +149,7 @@ impl Contents<'_> {
         let mut lines: Vec<Line<'_>> = Vec::new();
         for row in self.rows {
             let Some((_, worst)) = row.found.iter().find(|(q, _)| *q == quantity) else { continue };
-            let line = Line { row, worst: *worst, limit: limit(&row.form, &row.way, quantity) };
+            let line = Line { row, worst: *worst, limit: limit(row, quantity) };
             // Ways with limits of their own have lines of their own.
             let same = |other: &&mut Line<'_>| other.row.form == row.form && other.limit == line.limit;
             match lines.iter_mut().find(same) {
@@ -159,12 +167,12 @@ fn title(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::NotFinite => "colours that are not finite",
         Quantity::Fall => "fall of luminance on rising greys (white is 1)",
-        Quantity::Step => "largest step between neighbours (dE; told, not limited)",
+        Quantity::Step => "largest step between neighbours (dE)",
         Quantity::Excess => "step beyond the film's own at the same place (dE)",
-        Quantity::Rounding => "float32 against the same form in float64 (display-coded)",
-        Quantity::Vectors => "vectors and cards against one pixel at a time in float32 (display-coded)",
+        Quantity::Rounding => "float32 against the same form in float64 (sRGB-coded)",
+        Quantity::Vectors => "vectors and cards against one pixel at a time in float32 (sRGB-coded)",
         Quantity::Codes => "the same in pictures of 8 bits (codes)",
-        Quantity::Film => "form against film (dE; certificates follow the worst further)",
+        Quantity::Film => "form against film (dE)",
         Quantity::Forms => "form against form (dE)",
     }
 }
