@@ -276,7 +276,7 @@ impl Seen {
 }
 
 /// How many colours are not finite, and the first of them.
-fn not_finite(case: &Case, first: usize, values: &[[f64; 3]]) -> Worst {
+pub(super) fn not_finite(case: &Case, first: usize, values: &[[f64; 3]]) -> Worst {
     let bad = |i: &usize| !values[*i].iter().all(|v| v.is_finite());
     let value = (first..first + case.len()).filter(bad).count() as f64;
     Worst { value, ..each(case, first, |i| f64::from(u8::from(bad(&i)))) }
@@ -288,17 +288,17 @@ fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 /// The largest of all colours.
-fn each(case: &Case, first: usize, of: impl Fn(usize) -> f64) -> Worst {
+pub(super) fn each(case: &Case, first: usize, of: impl Fn(usize) -> f64) -> Worst {
     let colours = case.strands.iter().flat_map(|strand| &strand.colours);
     colours.zip(first..).map(|(at, i)| Worst { value: of(i), at: *at }).fold(NONE, larger)
 }
 
 /// The largest between neighbours, if there are any.
-fn largest(case: &Case, first: usize, of: impl Fn(usize, usize) -> f64) -> Option<Worst> {
+pub(super) fn largest(case: &Case, first: usize, of: impl Fn(usize, usize) -> f64) -> Option<Worst> {
     neighbours(case, first, |strand| strand.order != Order::Loose, of)
 }
 
-fn neighbours(
+pub(super) fn neighbours(
     case: &Case,
     first: usize,
     counts: impl Fn(&Strand) -> bool,
