@@ -77,8 +77,5 @@ fn a_huge_channel_drowns_no_other() {
             assert_eq!(direct.apply(single[0]), direct.apply(single[1]), "{camera} {huge:?}");
             assert_eq!(structured.apply(single[0]), structured.apply(single[1]), "{camera} {huge:?}");
         }
-        // Red light without end is not white light.
-        let [red, green, _] = film.develop([1e30, 0.0, 0.0]);
-        assert!(red > green + 0.2, "{camera}: {red} {green}");
     }
 }

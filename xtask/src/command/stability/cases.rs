@@ -90,7 +90,6 @@ const FOUND: [[f32; 3]; 16] = [
 pub(super) fn general(space: WorkingSpace) -> anyhow::Result<Vec<Case>> {
     let (nan, inf) = (f32::NAN, f32::INFINITY);
     Ok(vec![
-        Case::new("found before").with(Order::Loose, FOUND),
         Case::new("zeros").with(Order::Loose, triples(&[0.0, -0.0, 0.18, 1.0])),
         subnormals(),
         decades(),
@@ -100,6 +99,8 @@ pub(super) fn general(space: WorkingSpace) -> anyhow::Result<Vec<Case>> {
         one_channel(),
         hue_circles(),
         ramps(),
+        // Last: where a case finds the same again, its name says more.
+        Case::new("found before").with(Order::Loose, FOUND),
     ])
 }
 

@@ -44,7 +44,7 @@ impl Contents<'_> {
                 let broken = if line.is_kept() { "" } else { "BROKEN: " };
                 let _ = writeln!(
                     text,
-                    "  {form:34} {value:>8} {limit:11} {broken}{} at {}; {}",
+                    "  {form:46} {value:>8} {limit:11} {broken}{} at {}; {}",
                     row.case,
                     scene(worst.at),
                     row.process
@@ -53,7 +53,7 @@ impl Contents<'_> {
             if !none.is_empty() {
                 let forms: Vec<String> =
                     none.iter().map(|line| format!("{}, {}", line.row.form, line.row.kind.word())).collect();
-                let _ = writeln!(text, "  {:34} {:>8}", forms.join("; "), "none");
+                let _ = writeln!(text, "  {:46} {:>8}", forms.join("; "), "none");
             }
         }
         let broken = self.broken();
