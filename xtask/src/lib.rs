@@ -45,6 +45,8 @@ enum Command {
     Develop(command::develop::Arguments),
     /// Measure every form: speed against error as a page with plots and tables
     Report(command::report::Arguments),
+    /// Say how every form behaves on hard inputs: finite, monotone, steps, rounding; target/onelight/stability.md
+    Stability(command::stability::Arguments),
     /// Time the forms on a graphics card beside a plain copy: target/onelight/gpu.json
     GpuBench(command::gpu_bench::Arguments),
     /// List the stocks, or show one with a plot of its curves
@@ -93,6 +95,7 @@ fn run(command: Command) -> Result<Report> {
         Command::Certify(arguments) => command::certify::run(&arguments),
         Command::Develop(arguments) => command::develop::run(&arguments),
         Command::Report(arguments) => command::report::run(&arguments),
+        Command::Stability(arguments) => command::stability::run(&arguments),
         Command::GpuBench(arguments) => command::gpu_bench::run(&arguments),
         Command::Stocks(arguments) => command::stocks::run(&arguments),
         Command::Fixtures(arguments) => command::fixtures::run(&arguments),

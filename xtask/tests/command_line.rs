@@ -222,7 +222,7 @@ fn commands_that_only_look_work() {
         serde_json::from_str(&done(folder.path(), &["stocks", "fuji-velvia-50", "--json"])).unwrap();
     assert_eq!(velvia["kind"], "reversal");
     assert!(done(folder.path(), &["stocks", "--likeness"]).contains("kodak-portra-400"));
-    for command in ["bake", "compare", "develop", "light", "stocks", "fixtures", "tidy"] {
+    for command in ["bake", "compare", "develop", "light", "stability", "stocks", "fixtures", "tidy"] {
         assert!(done(folder.path(), &[command, "--help"]).contains("Usage"));
     }
 }
@@ -230,6 +230,19 @@ fn commands_that_only_look_work() {
 #[test]
 fn the_workspace_is_tidy() {
     done(Path::new(env!("CARGO_MANIFEST_DIR")), &["tidy"]);
+}
+
+#[test]
+fn hard_inputs_break_no_limit() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let text = done(folder, &["stability", "--camera", "fuji-velvia-50", "--out", "a", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!((&json["looks"], &json["broken"]), (&1.into(), &0.into()), "{}", json["worst"]);
+    assert_eq!(files(&folder.join("a")), ["stability.json", "stability.md"]);
+    let page = fs::read_to_string(folder.join("a/stability.md")).unwrap();
+    assert_eq!(page.matches("\n| fuji-velvia-50, neutral aim | ").count(), json["rows"].as_array().unwrap().len());
+    assert!(refused(folder, &["stability", "--all", "--camera", "kodak-5207"]).contains("--all"));
 }
 
 #[test]

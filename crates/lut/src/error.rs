@@ -113,10 +113,10 @@ impl fmt::Display for Error {
                 write!(f, "entries of a 3D LUT of size {size}: found {found}, expected {expected}")
             }
             Kind::Entry1d { index, found } => {
-                write!(f, "entry {index} of a 1D LUT: found {found:?}, expected finite numbers")
+                write!(f, "entry {index} of a 1D LUT: found {found:?}, expected numbers within ±1e38")
             }
             Kind::Entry3d { node, found } => {
-                write!(f, "entry of a 3D LUT at node {node:?}: found {found:?}, expected finite numbers")
+                write!(f, "entry of a 3D LUT at node {node:?}: found {found:?}, expected numbers within ±1e38")
             }
             Kind::PixelLayout { width, height, channels, stride, len } => write!(
                 f,

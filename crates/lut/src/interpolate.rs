@@ -2,7 +2,7 @@ use glam::Vec3A;
 
 /// How a 3D table is read between its nodes.
 ///
-/// Both are continuous, exact at the nodes and exact for affine maps.
+/// Both are continuous, exact at the nodes (a coordinate is a float32 and may miss its node by a rounding) and exact for affine maps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Interpolation {
     /// From the eight corners of the cell, linearly along each axis: what texture units do.

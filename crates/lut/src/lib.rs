@@ -81,7 +81,7 @@ pub use format::strip::{StripGreen, read_strip, write_strip};
 pub use interpolate::Interpolation;
 pub use lut1d::Lut1d;
 pub use lut3d::Lut3d;
-pub use pixels::{Channels, PixelMap, Pixels, PixelsMut, Sample};
+pub use pixels::{Channels, PixelMap, Pixels, PixelsMut, Sample, Vectors};
 pub use scene_sampler::SceneSampler;
 pub use shaper::{Shaper, ShaperKind, texel_centre};
 pub use storage::Storage;

@@ -1,6 +1,7 @@
 use crate::domain::Domain;
 use crate::error::{Error, Kind};
 use crate::interpolate::cell;
+use crate::lut3d::is_entry;
 
 /// Three curves, one per channel, as numbers at equal steps over a [`Domain`], read linearly between them.
 ///
@@ -23,10 +24,10 @@ impl Lut1d {
     /// # Errors
     ///
     /// If there are fewer than [`Lut1d::MIN_SIZE`] or more than [`Lut1d::MAX_SIZE`] entries, or one of them is
-    /// not finite.
+    /// no number within ±1e38: means of such are finite.
     pub fn new(domain: Domain, entries: Vec<[f32; 3]>) -> Result<Self, Error> {
         check_size(entries.len())?;
-        match entries.iter().position(|e| !e.iter().all(|v| v.is_finite())) {
+        match entries.iter().position(|e| !is_entry(e)) {
             Some(index) => Err(Kind::Entry1d { index, found: entries[index] }.into()),
             None => Ok(Self { domain, entries }),
         }
@@ -132,7 +133,7 @@ mod tests {
         let error = Lut1d::new(Domain::UNIT, vec![[0.0; 3], [0.0, f32::NAN, 0.0]]);
         assert_eq!(
             error.unwrap_err().to_string(),
-            "entry 1 of a 1D LUT: found [0.0, NaN, 0.0], expected finite numbers"
+            "entry 1 of a 1D LUT: found [0.0, NaN, 0.0], expected numbers within ±1e38"
         );
     }
 }

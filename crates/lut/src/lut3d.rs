@@ -25,7 +25,8 @@ impl Lut3d {
     ///
     /// # Errors
     ///
-    /// If `size` is out of bounds, the number of entries is not `size`^3, or an entry is not finite.
+    /// If `size` is out of bounds, the number of entries is not `size`^3, or an entry is no number within ±1e38: means of such are
+    /// finite.
     pub fn new(size: usize, entries: Vec<[f32; 3]>) -> Result<Self, Error> {
         let expected = node_count(size)?;
         let found = entries.len();
@@ -94,9 +95,18 @@ pub(crate) fn node_of(index: usize, size: usize) -> [usize; 3] {
     [index % size, index / size % size, index / (size * size)]
 }
 
-/// The first entry in memory that has a NaN or an infinity.
+/// The largest entry of a table, either side of 0: weights come to 1 but for their rounding, and a mean of the largest floats
+/// would be infinite.
+pub(crate) const ENTRY_MAX: f32 = 1e38;
+
+/// Whether a table may hold this entry.
+pub(crate) fn is_entry(entry: &[f32; 3]) -> bool {
+    entry.iter().all(|v| v.abs() <= ENTRY_MAX)
+}
+
+/// The first entry in memory that has a NaN, an infinity or what is nearly one.
 pub(crate) fn first_not_finite(entries: &[[f32; 3]]) -> Option<usize> {
-    entries.iter().position(|entry| !entry.iter().all(|v| v.is_finite()))
+    entries.iter().position(|entry| !is_entry(entry))
 }
 
 #[cfg(test)]
@@ -264,7 +274,7 @@ mod tests {
         entries[5][1] = f32::INFINITY;
         assert_eq!(
             Lut3d::new(2, entries).unwrap_err().to_string(),
-            "entry of a 3D LUT at node [1, 0, 1]: found [0.0, inf, 0.0], expected finite numbers"
+            "entry of a 3D LUT at node [1, 0, 1]: found [0.0, inf, 0.0], expected numbers within ±1e38"
         );
     }
 }

@@ -6,9 +6,11 @@ mod raw;
 mod run;
 mod sample;
 mod transfer;
+mod vectors;
 mod view;
 
 pub use map::PixelMap;
 pub(crate) use run::map_colours;
 pub use sample::Sample;
+pub use vectors::Vectors;
 pub use view::{Channels, Pixels, PixelsMut};

@@ -21,7 +21,8 @@ impl Pchip {
     /// Through `(x[i], y[i])`.
     ///
     /// # Errors
-    /// If there are fewer than two nodes, the counts differ, a value is not finite, or x does not increase.
+    /// If there are fewer than two nodes, the counts differ, a value is not finite, x does not increase, or two nodes lie so far or so
+    /// steeply apart that the cubic between them is beyond float64.
     pub fn new(x: Vec<f64>, y: Vec<f64>) -> Result<Self, Error> {
         let refuse = |problem: String| Err(Kind::Nodes { problem }.into());
         if x.len() != y.len() || x.len() < 2 {
@@ -38,6 +39,20 @@ impl Pchip {
             return refuse(format!("{} after {}, expected increasing abscissae", pair[1], pair[0]));
         }
         let slope = slopes(&x, &y);
+        let is_cubic = |i: usize| {
+            let (width, rise) = (x[i + 1] - x[i], y[i + 1] - y[i]);
+            [width, rise, rise / width, slope[i], slope[i + 1]].iter().all(|v| (v * ROOM).is_finite())
+        };
+        if let Some(i) = (0..x.len() - 1).find(|&i| !is_cubic(i)) {
+            return refuse(format!(
+                "nodes {i} and {} are ({:e}, {:e}) and ({:e}, {:e}), expected a slope that float64 holds",
+                i + 1,
+                x[i],
+                y[i],
+                x[i + 1],
+                y[i + 1]
+            ));
+        }
         Ok(Self { x, y, slope })
     }
 
@@ -110,6 +125,10 @@ impl Pchip {
         (i, (x - self.x[i]) / h, h)
     }
 }
+
+/// Coefficients of a cubic and of its slope are less than this many times the rise between its nodes: slopes are three times the mean
+/// one at most.
+const ROOM: f64 = 64.0;
 
 fn slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
     let h: Vec<f64> = x.windows(2).map(|p| p[1] - p[0]).collect();

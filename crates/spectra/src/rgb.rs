@@ -128,12 +128,14 @@ impl RgbSpace {
     }
 
     /// Linear RGB of this space to linear RGB of `target` with both about `white`: (1, 1, 1) stays (1, 1, 1), whatever
-    /// the whites of the two.
+    /// the whites of the two. Between the same primaries it is the identity to the last bit.
     ///
     /// # Errors
     /// As [`RgbSpace::to_xyz`].
     pub fn to_about(&self, target: &Self, white: Chromaticity) -> Result<Matrix3<f64>, Error> {
-        Ok(target.with_white(white).from_xyz()? * self.with_white(white).to_xyz()?)
+        let (to_xyz, from_xyz) = (self.with_white(white).to_xyz()?, target.with_white(white).from_xyz()?);
+        // Not what rounding makes of it: 1e-17 of a channel at 1e30 drowns the other two.
+        Ok(if self.primaries == target.primaries { Matrix3::identity() } else { from_xyz * to_xyz })
     }
 }
 
@@ -153,6 +155,14 @@ mod tests {
         RgbSpace::S_GAMUT3_CINE,
         RgbSpace::DAVINCI_WIDE_GAMUT,
     ];
+
+    #[test]
+    fn the_same_primaries_need_no_conversion() {
+        for space in ALL {
+            assert_eq!(space.to_about(&space, Chromaticity::black_body_6500_k()).unwrap(), Matrix3::identity());
+        }
+        assert!(RgbSpace::SRGB.to_about(&RgbSpace::SRGB, Chromaticity::new(0.3, f64::NAN)).is_err());
+    }
 
     #[test]
     fn ones_are_the_white() {

@@ -126,7 +126,11 @@ fn processes(arguments: &Arguments) -> Result<Vec<Process>> {
     if !arguments.all {
         return Ok(vec![arguments.look.process()?]);
     }
-    let base = arguments.look.process()?;
+    of_the_readme(&arguments.look.process()?)
+}
+
+/// The five films of the README in both aims, all else as `base` has it.
+pub(super) fn of_the_readme(base: &Process) -> Result<Vec<Process>> {
     let mut all = Vec::new();
     for camera in CAMERAS {
         let usual = Process::for_camera(camera)?;

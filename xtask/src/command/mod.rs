@@ -8,5 +8,6 @@ pub(crate) mod fixtures;
 pub(crate) mod gpu_bench;
 pub(crate) mod light;
 pub(crate) mod report;
+pub(crate) mod stability;
 pub(crate) mod stocks;
 pub(crate) mod tidy;

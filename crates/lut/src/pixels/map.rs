@@ -1,8 +1,10 @@
 use super::run;
 use super::sample::Sample;
+use super::vectors::Vectors;
 use super::view::{Pixels, PixelsMut};
 use crate::error::{Error, Kind};
 use crate::form::direct::DirectForm;
+use crate::form::double;
 use crate::form::plain::PlainLut;
 use crate::form::structured::StructuredLut;
 use crate::kernel::Level;
@@ -19,16 +21,32 @@ pub trait PixelMap: sealed::Sealed + Sync {
     /// The output for one colour.
     fn apply(&self, linear: [f32; 3]) -> [f32; 3];
 
+    /// The output for one colour in float64, from the same numbers: what [`PixelMap::apply`] would be if float32 did not round.
+    fn apply_f64(&self, linear: [f64; 3]) -> [f64; 3];
+
     /// Every pixel of `from` to `to`.
     ///
     /// # Errors
     /// If the pictures differ in size.
     fn map<S: Sample, T: Sample>(&self, from: &Pixels<'_, S>, to: &mut PixelsMut<'_, T>) -> Result<(), Error> {
+        self.map_on(Vectors::best(), from, to)
+    }
+
+    /// [`PixelMap::map`] by certain instructions.
+    ///
+    /// # Errors
+    /// As there.
+    fn map_on<S: Sample, T: Sample>(
+        &self,
+        vectors: Vectors,
+        from: &Pixels<'_, S>,
+        to: &mut PixelsMut<'_, T>,
+    ) -> Result<(), Error> {
         if from.size() != to.size() {
             return Err(Kind::PictureSizes { from: from.size(), to: to.size() }.into());
         }
         let (from, to) = ((from.samples, from.layout), (&mut *to.samples, to.layout));
-        run::map(self.blocks().0, Level::new(), from, to);
+        run::map(self.blocks().0, vectors.level(), from, to);
         Ok(())
     }
 
@@ -71,17 +89,29 @@ impl PixelMap for PlainLut {
     fn apply(&self, linear: [f32; 3]) -> [f32; 3] {
         self.apply(linear)
     }
+
+    fn apply_f64(&self, linear: [f64; 3]) -> [f64; 3] {
+        double::plain(self, linear)
+    }
 }
 
 impl PixelMap for StructuredLut {
     fn apply(&self, linear: [f32; 3]) -> [f32; 3] {
         self.apply(linear)
     }
+
+    fn apply_f64(&self, linear: [f64; 3]) -> [f64; 3] {
+        double::structured(self, linear)
+    }
 }
 
 impl PixelMap for DirectForm {
     fn apply(&self, linear: [f32; 3]) -> [f32; 3] {
         self.apply(linear)
+    }
+
+    fn apply_f64(&self, linear: [f64; 3]) -> [f64; 3] {
+        double::direct(self, linear)
     }
 }
 

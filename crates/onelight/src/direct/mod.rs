@@ -51,7 +51,7 @@ pub struct DirectSettings {
 }
 
 impl Default for DirectSettings {
-    /// What stays below 0.07 dE for the films of the README, below 0.11 for all pairs of films (5207 on 2383: 6 + 3 stay below 0.3,
+    /// What stays below 0.07 dE for the films of the README, below 0.13 for all pairs of films (5207 on 2383: 6 + 3 stay below 0.3,
     /// 8 + 4 below 0.13; Velvia 50: 6 below 0.3, 8 below 0.04).
     fn default() -> Self {
         Self { nodes: Nodes::Counts { projection: 10, duplication: 5 } }

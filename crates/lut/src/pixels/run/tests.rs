@@ -257,6 +257,50 @@ fn tables_of_every_length_in_memory_are_read_alike() {
 }
 
 #[test]
+fn float64_is_the_same_form_without_the_rounding() {
+    fn all(form: &impl PixelMap) {
+        for pixel in scene(20_000).as_chunks::<4>().0 {
+            let rgb = [pixel[0], pixel[1], pixel[2]];
+            let (single, double) = (form.apply(rgb), form.apply_f64(rgb.map(f64::from)));
+            for (single, double) in single.into_iter().zip(double) {
+                assert!((f64::from(single) - double).abs() <= f64::from(FLOAT), "{rgb:?}: {single} for {double}");
+            }
+        }
+    }
+    all(&plain(Interpolation::Tetrahedral));
+    all(&plain(Interpolation::Trilinear));
+    all(&structured(Decode::Coded, None));
+    all(&structured(density(), mix()));
+    all(&direct(None));
+    all(&direct(print()));
+    // A table of coordinates is the shaper itself, which float64 has by another path.
+    for how in [Interpolation::Tetrahedral, Interpolation::Trilinear] {
+        let form = PlainLut::new(Shaper::log2(0.02, 16.0).unwrap(), Lut3d::identity(17).unwrap(), how);
+        for rgb in SceneSampler::new(-10.0..=6.0).unwrap().take(1000) {
+            let expected = rgb.map(|v| form.shaper().encode(v));
+            assert!(form.apply_f64(rgb).iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-14), "{rgb:?}");
+        }
+    }
+}
+
+#[test]
+fn instructions_can_be_chosen() {
+    let (form, rgba) = (plain(Interpolation::Tetrahedral), scene(1000));
+    let of = |vectors: crate::Vectors| {
+        let mut to = vec![0.0_f32; rgba.len()];
+        let from = crate::Pixels::new(&rgba, Channels::Rgba, [1000, 1]).unwrap();
+        form.map_on(vectors, &from, &mut crate::PixelsMut::new(&mut to, Channels::Rgba, [1000, 1]).unwrap()).unwrap();
+        to.into_iter().map(f32::to_bits).collect::<Vec<_>>()
+    };
+    let available = crate::Vectors::available();
+    assert_eq!(available.last().unwrap().name(), crate::Vectors::best().name());
+    assert!(of(*available.last().unwrap()) == of(crate::Vectors::best()));
+    let mut names: Vec<_> = available.iter().map(|vectors| vectors.name()).collect();
+    names.dedup();
+    assert_eq!(names.len(), available.len());
+}
+
+#[test]
 fn every_pair_of_sample_types_follows() {
     fn from<S: Near>(form: &PlainLut, level: Level, channels: [Channels; 2], width: usize) {
         follows::<S, f32>(form, level, channels, width);
