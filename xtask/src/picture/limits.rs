@@ -4,11 +4,11 @@ use anyhow::{Result, anyhow, bail};
 
 /// The largest picture that is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Limits {
+pub struct Limits {
     /// Most pixels in one window.
-    pub(crate) max_pixels: u64,
+    pub max_pixels: u64,
     /// Longest side of a window, in pixels.
-    pub(crate) max_side: u64,
+    pub max_side: u64,
 }
 
 impl Default for Limits {
