@@ -12,15 +12,25 @@ pub mod picture;
 /// Data sheets, as far as the film on the screen.
 pub mod stock;
 
+/// What became of an input.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Met {
+    /// It was read, and all laws hold.
+    Read,
+    /// It was refused in a sentence.
+    Refused,
+}
+
 /// More bytes than any sentence of ours needs.
 const SENTENCE_BYTES: usize = 1000;
 
 /// The law of refusals.
-fn refused(error: &impl std::fmt::Display) {
+fn refused(error: &impl std::fmt::Display) -> Met {
     let sentence = error.to_string();
     assert!(!sentence.is_empty(), "a refusal without a word");
-    assert!(!sentence.contains('\n'), "more than one line: {sentence:?}");
+    assert!(!sentence.contains(char::is_control), "more than one plain line: {sentence:?}");
     assert!(sentence.len() <= SENTENCE_BYTES, "a sentence of {} bytes: {sentence:.100}...", sentence.len());
+    Met::Refused
 }
 
 /// How often what takes long is done: for one in so many of the inputs that get so far, chosen by their bytes.

@@ -6,12 +6,12 @@ use onelight::lut::{
     write_ktx2, write_spi3d, write_strip,
 };
 
-use super::{hard_colours, refused};
+use super::{Met, hard_colours, refused};
 
 const BOTH: [Interpolation; 2] = [Interpolation::Trilinear, Interpolation::Tetrahedral];
 
 /// A `.cube` gives finite colours for all colours, and is the same when written and read again.
-pub fn cube(bytes: &[u8]) {
+pub fn cube(bytes: &[u8]) -> Met {
     let file = match CubeFile::read(bytes) {
         Ok(file) => file,
         Err(error) => return refused(&error),
@@ -22,10 +22,11 @@ pub fn cube(bytes: &[u8]) {
         }
     }
     written_again(&file, |file, out| file.write(out), |bytes| CubeFile::read(bytes));
+    Met::Read
 }
 
 /// A CLF is the same when written and read again; one that ends in a table gives finite colours for all colours.
-pub fn clf(bytes: &[u8]) {
+pub fn clf(bytes: &[u8]) -> Met {
     let process = match ClfProcess::read(bytes) {
         Ok(process) => process,
         Err(error) => return refused(&error),
@@ -38,14 +39,16 @@ pub fn clf(bytes: &[u8]) {
         }
     }
     written_again(&process, |process, out| process.write(out), |bytes| ClfProcess::read(bytes));
+    Met::Read
 }
 
 /// An `.spi3d` gives finite colours for all colours, and is the same when written and read again.
-pub fn spi3d(bytes: &[u8]) {
+pub fn spi3d(bytes: &[u8]) -> Met {
     match read_spi3d(bytes) {
         Ok(table) => {
             applied(&table);
             written_again(&table, |table, out| write_spi3d(out, table), |bytes| read_spi3d(bytes));
+            Met::Read
         }
         Err(error) => refused(&error),
     }
@@ -53,8 +56,8 @@ pub fn spi3d(bytes: &[u8]) {
 
 /// A KTX2 file of ours, which we write and do not read, holds the table and the comment for an independent reader: the
 /// bytes are the table's size, the comment with its length, and entries as `f32`.
-pub fn ktx2(bytes: &[u8]) {
-    let [size, length, rest @ ..] = bytes else { return };
+pub fn ktx2(bytes: &[u8]) -> Met {
+    let [size, length, rest @ ..] = bytes else { return Met::Refused };
     let size = Lut3d::MIN_SIZE + usize::from(size % 8);
     let (comment, rest) = rest.split_at(usize::from(*length).min(rest.len()));
     let comment = String::from_utf8_lossy(comment);
@@ -84,6 +87,7 @@ pub fn ktx2(bytes: &[u8]) {
         assert!(key == "KTXwriter" || key == "comment", "{key:?}");
         assert_eq!(value.last(), Some(&0), "{key:?}");
     }
+    Met::Read
 }
 
 /// A PNG as a Hald or a strip: a table that is read gives finite colours, and is the same when written and read again.
@@ -94,7 +98,7 @@ pub(super) fn png(bytes: &[u8]) {
             let write = |table: &Lut3d, out: &mut Vec<u8>| write_hald(out, table, PngDepth::Sixteen, [""; 0]);
             written_again(&table, write, |bytes| read_hald(bytes));
         }
-        Err(error) => refused(&error),
+        Err(error) => _ = refused(&error),
     }
     for green in [StripGreen::Down, StripGreen::Up] {
         match read_strip(bytes, green) {
@@ -102,7 +106,7 @@ pub(super) fn png(bytes: &[u8]) {
                 let write = |table: &Lut3d, out: &mut Vec<u8>| write_strip(out, table, PngDepth::Sixteen, green, [""; 0]);
                 written_again(&table, write, |bytes| read_strip(bytes, green));
             }
-            Err(error) => refused(&error),
+            Err(error) => _ = refused(&error),
         }
     }
 }

@@ -10,7 +10,7 @@ use onelight::printing::{
 };
 use onelight::spectra::{Basis, Reconstruction, RgbSpace, SpectralShape};
 
-use super::{HARD, OneIn, refused};
+use super::{HARD, Met, OneIn, refused};
 
 /// The line between two files of a stock.
 const BETWEEN: &str = "\n%\n";
@@ -19,8 +19,8 @@ const BETWEEN: &str = "\n%\n";
 /// results or errs. Films are made for one input in `compiled`.
 ///
 /// The bytes are `stock.toml`, `sensitivity.csv`, `characteristic.csv` and `dye_density.csv`, with a line `%` between them.
-pub fn check(bytes: &[u8], compiled: OneIn) {
-    let Ok(text) = std::str::from_utf8(bytes) else { return };
+pub fn check(bytes: &[u8], compiled: OneIn) -> Met {
+    let Ok(text) = std::str::from_utf8(bytes) else { return Met::Refused };
     let mut files = text.split(BETWEEN);
     let mut file = || files.next().unwrap_or_default();
     let sheet = SheetText {
@@ -38,8 +38,9 @@ pub fn check(bytes: &[u8], compiled: OneIn) {
     if compiled.holds(bytes)
         && let Err(error) = on_screen(&stock)
     {
-        refused(&error);
+        return refused(&error);
     }
+    Met::Read
 }
 
 fn curve(curve: &CharacteristicCurve) {
