@@ -80,9 +80,14 @@ fn on_screen(stock: &Stock) -> Result<(), onelight::Error> {
     if stock.kind() != StockKind::Print {
         let basis = Basis::new(Reconstruction::Smooth)?;
         for matching in [Matching::Grey, Matching::Absolute] {
-            let exposure = ExposureMatrix::new(stock, &basis, matching, grey)?;
-            let exposed = exposure.expose([0.18, 1e30, 0.0]).to_array();
-            assert!(exposed.iter().all(|h| h.is_finite()), "{exposed:?}");
+            match ExposureMatrix::new(stock, &basis, matching, grey) {
+                Ok(exposure) => {
+                    let exposed = exposure.expose([0.18, 1e30, 0.0]).to_array();
+                    assert!(exposed.iter().all(|h| h.is_finite()), "{exposed:?}");
+                }
+                // Only where the sheet's axis is one of lux s.
+                Err(error) => _ = refused(&error),
+            }
         }
     }
     match (stock.kind(), NEGATIVE.as_ref(), PRINT.as_ref()) {

@@ -146,9 +146,9 @@ impl Level {
     }
 }
 
-/// A data window that begins off the display window's first pixel.
+/// A data window that begins left of the display window's first pixel.
 fn moved() -> Vec<u8> {
-    let corners = [-3, 5, SIZE[0] as i32 - 4, SIZE[1] as i32 + 4];
+    let corners = [-3, 0, SIZE[0] as i32 - 4, SIZE[1] as i32 - 1];
     corners.iter().flat_map(|corner| corner.to_le_bytes()).collect()
 }
 

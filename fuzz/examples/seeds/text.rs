@@ -19,7 +19,7 @@ pub(super) fn looks() -> Vec<Seed> {
         (
             "first.toml".to_owned(),
             b"version = 1 # of the format\napproach = 'first'\n[first]\ncontrast = 1.2\nbrightness = 0.1\n\
-              temperature = 0.2\nsaturation = 0.9\ncurve = [[-6, 0.0], [0, 0.45], [4.5, 1.0]]\n"
+              temperature = 5000\nsaturation = 0.9\ncurve = [[-6, 0.01], [0, 0.45], [4.5, 0.85]]\n"
                 .to_vec(),
         ),
         ("reversal.toml".to_owned(), b"version = 1\ncamera = \"fuji-velvia-50\"\nprint = \"none\"\n".to_vec()),
@@ -35,6 +35,10 @@ pub(super) fn looks() -> Vec<Seed> {
     words::<Aim>(&mut seeds);
     words::<DyeModel>(&mut seeds);
     words::<Matching>(&mut seeds);
+    // Only sheets with an axis in lux s can be absolute.
+    if let Some((_, text)) = seeds.iter_mut().find(|(name, _)| name == "matching-absolute.toml") {
+        text.extend(b"camera = \"kodak-5219\"\n");
+    }
     words::<Reconstruction>(&mut seeds);
     words::<PrinterLight>(&mut seeds);
     words::<Infrared>(&mut seeds);

@@ -29,9 +29,9 @@ use super::{
 const BATCH_BYTES: usize = 1 << 26;
 
 /// How many times the samples of a block are held while it is unpacked: packed, between steps, and as they come out.
-const UNPACKING: u64 = 4;
+const UNPACKING: u64 = 3;
 /// The same of DWA, which unpacks its sections one by one.
-const UNPACKING_DWA: u64 = 6;
+const UNPACKING_DWA: u64 = 5;
 
 /// Refuses blocks that take more memory than [`Limits`] has.
 pub(super) fn check_memory(header: &Header, limits: &Limits) -> Result<()> {
