@@ -3,10 +3,10 @@
 //! Every function takes any bytes. What is refused must be refused in one short sentence; what is read goes on to where a
 //! user would take it, and must keep the laws stated there. A broken law panics.
 
-/// Text files of tables: `.cube`, CLF, `.spi3d`, and our KTX2 as others read it.
-pub mod lut;
 /// `look.toml`, as far as the film at work.
 pub mod look;
+/// Text files of tables: `.cube`, CLF, `.spi3d`, and our KTX2 as others read it.
+pub mod lut;
 /// Pictures: OpenEXR, PNG, TIFF, whole.
 pub mod picture;
 /// Data sheets, as far as the film on the screen.
@@ -41,9 +41,9 @@ impl OneIn {
     /// Whether the input is among those.
     fn holds(self, bytes: &[u8]) -> bool {
         // FNV-1a: any hash would do that is the same tomorrow.
-        let hash = bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-            (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
-        });
+        let hash = bytes
+            .iter()
+            .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3));
         (hash >> 32).is_multiple_of(self.0.max(1))
     }
 }

@@ -103,7 +103,8 @@ pub(super) fn png(bytes: &[u8]) {
     for green in [StripGreen::Down, StripGreen::Up] {
         match read_strip(bytes, green) {
             Ok(table) => {
-                let write = |table: &Lut3d, out: &mut Vec<u8>| write_strip(out, table, PngDepth::Sixteen, green, [""; 0]);
+                let write =
+                    |table: &Lut3d, out: &mut Vec<u8>| write_strip(out, table, PngDepth::Sixteen, green, [""; 0]);
                 written_again(&table, write, |bytes| read_strip(bytes, green));
             }
             Err(error) => _ = refused(&error),

@@ -1,8 +1,8 @@
 use std::sync::LazyLock;
 
 use onelight::film::{
-    CharacteristicCurve, Density, DyeAmount, DyeModel, ExposureMatrix, LogExposure, Matching, PerLayer, SheetText, Stock,
-    StockKind,
+    CharacteristicCurve, Density, DyeAmount, DyeModel, ExposureMatrix, LogExposure, Matching, PerLayer, SheetText,
+    Stock, StockKind,
 };
 use onelight::printing::{
     Aim, Duplication, EquivalentNeutralDensity, Printer, Projection, Projector, print_mid_grey, print_target,

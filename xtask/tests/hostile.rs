@@ -108,15 +108,20 @@ fn claims_are_refused_before_memory_is_taken() {
     let scan = || corpus("exr/zip-lines.exr");
     // 16000 x 16000 RGBA of 16 bits in 2 MB is what Deflate can just pack.
     let interlaced = [0, 0, 0x3e, 0x80, 0, 0, 0x3e, 0x80, 16, 6, 0, 0, 1];
-    let claims: [(&str, Vec<u8>, &str); 9] = [
+    let claims: [(&str, Vec<u8>, &str); 10] = [
         ("billion", edited(scan(), WINDOW, &window(1_000_000_000, 1_000_000_000)), "data window"),
         ("large", edited(scan(), WINDOW, &window(60_000, 60_000)), "expected up to 268435456 pixels"),
         ("short", edited(scan(), WINDOW, &window(16_000, 16_000)), "cannot hold"),
-        ("tile", edited(one_tile(8, Compression::ZIP16), b"tiledesc\0\x09\0\0\0", &[0, 0, 1, 0, 0, 0, 1, 0]), "a tile is"),
+        (
+            "tile",
+            edited(one_tile(8, Compression::ZIP16), b"tiledesc\0\x09\0\0\0", &[0, 0, 1, 0, 0, 0, 1, 0]),
+            "a tile is",
+        ),
         ("deep", corpus("exr/refused-deep.exr"), "deep data"),
         ("parts", parts(), "OpenEXR header"),
         ("bomb", claimed_tile(10_000), "takes 2289 MiB of memory at once, expected up to 1024 MiB"),
         ("interlaced", png(interlaced, &vec![0; 2_000_000]), "takes 1954 MiB of memory at once"),
+        ("tag", corpus("tiff/found-tag-of-many-numbers.tif"), "claims 8388608 numbers"),
         ("strip", strip(), "takes 1099 MiB of memory at once"),
     ];
     for (name, bytes, expected) in claims {

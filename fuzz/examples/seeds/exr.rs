@@ -5,8 +5,8 @@ use std::io::Cursor;
 use exr::image::write::WritableImage;
 use exr::math::RoundingMode;
 use exr::prelude::{
-    AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, ImageAttributes, Layer, LayerAttributes,
-    Layers, Levels, LineOrder, Text, Vec2, f16,
+    AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, ImageAttributes, Layer,
+    LayerAttributes, Layers, Levels, LineOrder, Text, Vec2, f16,
 };
 
 use super::{Fault, Seed};
@@ -42,11 +42,8 @@ pub(super) fn files() -> Result<Vec<Seed>, Fault> {
         let channels = [("B", count(2)), ("G", count(1)), ("R", count(0))];
         files.push((format!("{name}-integers.exr"), file(vec![layer(None, encoding, &channels)])?));
     }
-    let usual = Encoding {
-        compression: Compression::ZIP16,
-        blocks: Blocks::ScanLines,
-        line_order: LineOrder::Increasing,
-    };
+    let usual =
+        Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
     let rgb = || [("B", half(2)), ("G", half(1)), ("R", half(0))];
     files.push(("grey.exr".into(), file(vec![layer(None, usual, &[("Y", half(0))])])?));
     let layers = [("a.R", half(0)), ("b.x.A", half(3)), ("b.x.B", half(2)), ("b.x.G", half(1)), ("b.x.R", half(0))];

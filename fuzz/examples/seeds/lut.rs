@@ -21,7 +21,10 @@ pub(super) fn cube() -> Result<Vec<Seed>, Fault> {
     }
     let texts = [
         ("1d-range", "lut_1d_size 2\r\nLUT_1D_INPUT_RANGE -1 2\r\n0 0\t0\r\n\r\n1e0 +1 .5\r\n"),
-        ("3d-range", "TITLE no quotes\nLUT_3D_SIZE 2\nLUT_3D_INPUT_RANGE 0 4\n# before the data\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n# within\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n"),
+        (
+            "3d-range",
+            "TITLE no quotes\nLUT_3D_SIZE 2\nLUT_3D_INPUT_RANGE 0 4\n# before the data\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n# within\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n",
+        ),
         ("refused-size", "LUT_3D_SIZE 4096\n0 0 0\n"),
         ("refused-nan", "LUT_1D_SIZE 2\nnan 0 0\n1 1 1\n"),
     ];
@@ -72,9 +75,10 @@ pub(super) fn clf() -> Result<Vec<Seed>, Fault> {
     let lut = film.structured(&StructuredSettings { size: 2, ..Default::default() })?;
     let parts = lut.parts().clone();
     let curves = |curves: &Lut1d| Lut1d::new(*curves.domain(), curves.entries().iter().step_by(256).copied().collect());
-    let mix = parts.mix.as_ref().map(|mix| -> Result<_, Fault> {
-        Ok(onelight::lut::Mix { curves: curves(&mix.curves)?, ..mix.clone() })
-    });
+    let mix = parts
+        .mix
+        .as_ref()
+        .map(|mix| -> Result<_, Fault> { Ok(onelight::lut::Mix { curves: curves(&mix.curves)?, ..mix.clone() }) });
     let small = onelight::lut::StructuredParts { curves: curves(&parts.curves)?, mix: mix.transpose()?, ..parts };
     let mut structured = Vec::new();
     ClfProcess::from_structured(&onelight::lut::StructuredLut::new(small)?)?.write(&mut structured)?;

@@ -102,7 +102,7 @@ impl<R: Read + Seek + Send> Bands for ExrBands<R> {
         let block_rows = rows.start / grid.block.1..rows.end.div_ceil(grid.block.1);
         let batch = (BATCH_BYTES / grid.bytes(self.header()).max(1)).max(1);
         if grid.is_tall(width) {
-            if rows.start % grid.block.1 == 0 {
+            if rows.start.is_multiple_of(grid.block.1) {
                 self.begun.clear();
                 for batch in self.blocks.of_rows(block_rows).chunks(batch) {
                     let unpacked = self.unpack(batch)?;

@@ -58,7 +58,11 @@ pub(super) fn choose(parts: &[Header]) -> Result<Layout> {
 
     let mut notes = Vec::new();
     if parts.len() > 1 {
-        let name = part.own_attributes.layer_name.as_ref().map_or(String::new(), |name| format!(" (`{}`)", told(&name.to_string())));
+        let name = part
+            .own_attributes
+            .layer_name
+            .as_ref()
+            .map_or(String::new(), |name| format!(" (`{}`)", told(&name.to_string())));
         notes.push(format!("read part {}{name} of {} parts", index + 1, parts.len()));
     }
     if !group.layer.is_empty() {
@@ -138,8 +142,7 @@ impl Channel {
 
 fn names(parts: &[Header]) -> String {
     let all = || parts.iter().flat_map(|part| &part.channels.list);
-    let listed: Vec<String> =
-        all().take(NAMES_LISTED).map(|channel| told(&channel.name.to_string())).collect();
+    let listed: Vec<String> = all().take(NAMES_LISTED).map(|channel| told(&channel.name.to_string())).collect();
     let more = all().count().saturating_sub(NAMES_LISTED);
     match (listed.is_empty(), more) {
         (true, _) => "(none)".to_owned(),

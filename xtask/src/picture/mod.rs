@@ -31,6 +31,7 @@ mod png_write;
 #[cfg(test)]
 mod tests;
 mod tiff_read;
+mod tiff_tags;
 
 use std::{
     fs::{self, File},
@@ -41,14 +42,14 @@ use std::{
 use anyhow::{Result, anyhow, bail};
 
 use self::band::Bands;
-pub use self::{
-    in_memory::{read_picture, write_picture},
-    limits::Limits,
-};
 pub(crate) use self::{
     band::{Band, BandSink, BandView, Channels, RowMut},
     exr_write::{write_exr, write_exr_bands},
     png_write::{Bits, Coding, ColourTag, write_png_bands},
+};
+pub use self::{
+    in_memory::{read_picture, write_picture},
+    limits::Limits,
 };
 
 /// What the formats are called in messages.

@@ -151,7 +151,11 @@ fn sentence(error: &DecodingError) -> anyhow::Error {
             let text = other.to_string();
             let detail = text.split("ChunkType").next().unwrap_or_default().trim_end_matches([':', ' ', '.']);
             let detail = detail.trim_end_matches(" while decoding");
-            if detail.is_empty() { anyhow!("the PNG is damaged") } else { anyhow!("the PNG is damaged: {}", told(detail)) }
+            if detail.is_empty() {
+                anyhow!("the PNG is damaged")
+            } else {
+                anyhow!("the PNG is damaged: {}", told(detail))
+            }
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Reading TIFF: grey and RGB, with and without alpha, of 8, 16 or 32 bits or floating point.
 
-use std::io::{ErrorKind, Read, Seek};
+use std::io::{ErrorKind, Read, Seek, SeekFrom};
 
 use anyhow::{Result, anyhow, bail};
 use rayon::prelude::*;
@@ -15,6 +15,7 @@ use super::{
     band::{BAND_PIXELS, blocks_in_band},
     guard::{guarded, told},
     limits::check_claim,
+    tiff_tags,
 };
 
 /// More than Deflate, LZW or PackBits can give for one byte.
@@ -33,10 +34,12 @@ pub(super) fn open<'a, R: Read + Seek + Send + 'a>(
 }
 
 fn start<'a, R: Read + Seek + Send + 'a>(
-    reader: R,
+    mut reader: R,
     length: u64,
     limits: &Limits,
 ) -> Result<(Description, Box<dyn Bands + 'a>)> {
+    tiff_tags::check(&mut reader, length)?;
+    reader.seek(SeekFrom::Start(0)).map_err(|error| super::cannot_read(&error))?;
     let mut decoder = Decoder::new(reader).map_err(sentence)?;
     let (width, height) = decoder.dimensions().map_err(sentence)?;
     let (width, height) = (u64::from(width), u64::from(height));

@@ -26,7 +26,8 @@ impl Element {
                 return Err(TextProblem::TooMany { what: "attributes of an element", max: MAX_ATTRIBUTES });
             }
             let attribute = attribute.map_err(|error| bad(told(&error.to_string())))?;
-            let value = attribute.normalized_value(XmlVersion::Implicit1_0).map_err(|error| bad(told(&error.to_string())))?;
+            let value =
+                attribute.normalized_value(XmlVersion::Implicit1_0).map_err(|error| bad(told(&error.to_string())))?;
             attributes.push((attribute.key.local_name().into_inner().to_owned(), value.into_owned()));
         }
         Ok(Self { at, name: start.local_name().into_inner().to_owned(), attributes })
