@@ -1,8 +1,8 @@
 use std::sync::LazyLock;
 
 use onelight::film::{
-    CharacteristicCurve, Density, DyeAmount, DyeModel, ExposureMatrix, LogExposure, Matching, PerLayer, SheetText,
-    Stock, StockKind,
+    AmountCurve, CharacteristicCurve, Density, DyeAmount, DyeModel, ExposureMatrix, LogExposure, Matching, PerLayer,
+    SheetText, Stock, StockKind,
 };
 use onelight::printing::{
     Aim, Duplication, EquivalentNeutralDensity, Printer, Projection, Projector, print_mid_grey, print_target,
@@ -74,7 +74,7 @@ fn on_screen(stock: &Stock) -> Result<(), onelight::Error> {
             DyeModel::Literal.amounts(stock, grey)?
         }
     };
-    let held = amounts.as_ref().zip_map(grey, |curve, h| curve.amount(h));
+    let held = amounts.as_ref().zip_map(grey, AmountCurve::amount);
     assert!(held.to_array().iter().all(|amount| amount.0.is_finite()), "{held:?}");
 
     if stock.kind() != StockKind::Print {
@@ -95,13 +95,13 @@ fn on_screen(stock: &Stock) -> Result<(), onelight::Error> {
         (StockKind::Print, Some(negative), _) => {
             let curves = DyeModel::Wedge.amounts(negative, PerLayer::all(negative.mid_grey()?))?;
             let grey = PerLayer::all(negative.mid_grey()?);
-            printed(negative, stock, curves.as_ref().zip_map(grey, |curve, h| curve.amount(h)))
+            printed(negative, stock, curves.as_ref().zip_map(grey, AmountCurve::amount))
         }
         _ => {
             let projection = projection(stock)?;
             let density = EquivalentNeutralDensity::default();
             let target = reversal_target(Aim::Neutral, density, stock, grey, amounts.as_ref(), &projection)?;
-            shown(&projection, amounts.as_ref().zip_map(target, |curve, h| curve.amount(h)));
+            shown(&projection, amounts.as_ref().zip_map(target, AmountCurve::amount));
             Ok(())
         }
     }
@@ -115,7 +115,7 @@ fn printed(negative: &Stock, print: &Stock, grey: PerLayer<DyeAmount>) -> Result
     let target = print_target(Aim::Neutral, density, print, paper.as_ref(), &projection)?;
     let printer = Duplication::new(negative, print, Printer::default())?;
     let printer = printer.lit(printer.calibrate(grey, target)?);
-    shown(&projection, paper.as_ref().zip_map(printer.expose(grey), |curve, h| curve.amount(h)));
+    shown(&projection, paper.as_ref().zip_map(printer.expose(grey), AmountCurve::amount));
     Ok(())
 }
 
