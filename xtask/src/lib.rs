@@ -10,7 +10,7 @@ mod exposure;
 mod folders;
 mod likeness;
 mod look;
-mod picture;
+pub mod picture;
 mod plot;
 mod preview;
 mod progress;

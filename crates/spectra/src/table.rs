@@ -7,6 +7,11 @@ pub const MAX_ROWS: usize = 10_000;
 /// Most columns a table may have.
 pub const MAX_COLUMNS: usize = 64;
 
+/// Most bytes of text a table may have.
+const MAX_BYTES: usize = 4 << 20;
+/// Most characters of a name or cell that a message repeats.
+const SHOWN: usize = 40;
+
 /// A comma-separated table of numbers: `#` lines are comments, the first other line names the columns, a blank cell
 /// means "not published".
 ///
@@ -28,8 +33,11 @@ impl NumberTable {
     /// Reads `text`; `source` is the name that messages carry.
     ///
     /// # Errors
-    /// If the text is not such a table; the message names the line.
+    /// If the text is not such a table, or longer than 4 MiB; the message names the line.
     pub fn parse(source: &str, text: &str) -> Result<Self, Error> {
+        if text.len() > MAX_BYTES {
+            return Err(at(source, 1, format!("{} bytes, expected at most {MAX_BYTES}", text.len())));
+        }
         let mut reader = ReaderBuilder::new().comment(Some(b'#')).trim(Trim::All).from_reader(text.as_bytes());
         let names: Vec<String> = match reader.headers() {
             Ok(headers) => headers.iter().map(str::to_owned).collect(),
@@ -65,7 +73,7 @@ impl NumberTable {
                         return Err(at(
                             &self.source,
                             line,
-                            format!("{name}: found {cell:?}, expected a number or nothing"),
+                            format!("{}: found {:?}, expected a number or nothing", shown(name), shown(cell)),
                         ));
                     }
                 },
@@ -94,7 +102,11 @@ impl NumberTable {
     pub fn column(&self, name: &str) -> Result<&[Option<f64>], Error> {
         match self.names.iter().position(|n| n == name) {
             Some(i) => Ok(&self.columns[i]),
-            None => Err(at(&self.source, 1, format!("no column {name:?}, found {}", self.names.join(", ")))),
+            None => {
+                let found: Vec<String> = self.names.iter().map(|name| shown(name)).collect();
+                let found: String = found.join(", ").chars().take(8 * SHOWN).collect();
+                Err(at(&self.source, 1, format!("no column {name:?}, found {found}")))
+            }
         }
     }
 
@@ -146,6 +158,11 @@ fn at(source: &str, line: u64, problem: String) -> Error {
     Kind::Table { source: source.to_owned(), line, problem }.into()
 }
 
+/// The beginning of what a file has, on one line.
+fn shown(text: &str) -> String {
+    text.chars().take(SHOWN).map(|c| if c.is_control() { ' ' } else { c }).collect()
+}
+
 fn unreadable(source: &str, error: &csv::Error) -> Error {
     let line = error.position().map_or(1, csv::Position::line);
     let problem = match error.kind() {
@@ -176,6 +193,19 @@ mod tests {
         assert_eq!(message("x,y\n,2\n3,4\n"), "t.csv:2: x is blank, expected a number in every row");
         assert!(message("").contains("expected 2 to"));
         assert!(message("x,y\n").contains("no rows"));
+    }
+
+    #[test]
+    fn hostile_sizes_are_refused_and_not_repeated() {
+        let lines = |count: usize| format!("x,y\n{}", (0..count).map(|i| format!("{i},1\n")).collect::<String>());
+        assert!(NumberTable::parse("t.csv", &lines(MAX_ROWS)).is_ok());
+        assert_eq!(message(&lines(MAX_ROWS + 1)), "t.csv:10002: more than 10000 rows");
+        assert_eq!(message(&"#\n".repeat(MAX_BYTES)), "t.csv:1: 8388608 bytes, expected at most 4194304");
+        for text in [format!("x,y\n1,{}\n", "z".repeat(9999)), format!("{},b\n1,2\n", "a\u{7}".repeat(9999))] {
+            let sentence = message(&text);
+            assert!(sentence.len() < 200 && !sentence.contains(char::is_control), "{sentence}");
+        }
+        assert!(message(&format!("{}\n1\n", "a,".repeat(65))).contains("found 66 columns, expected 2 to 64"));
     }
 
     #[test]

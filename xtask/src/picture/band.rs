@@ -9,7 +9,7 @@ use super::limits::grow;
 
 /// How many pixels a band has, unless a row of the file's blocks has more: enough to keep all threads busy, few enough
 /// that three bands take no more than some tens of MiB.
-const BAND_PIXELS: usize = 1 << 20;
+pub(super) const BAND_PIXELS: usize = 1 << 20;
 
 /// Rows of a picture that lie together, all of its width.
 #[derive(Debug, Default)]

@@ -1,10 +1,14 @@
 //! The pixels of an OpenEXR part, one or more rows of blocks at a time.
 
-use std::io::{Read, Seek};
+use std::{
+    io::{Read, Seek},
+    ops::Range,
+};
 
 use anyhow::{Result, anyhow};
 use exr::{
     block::{UncompressedBlock, chunk::Chunk},
+    compression::Compression,
     math::Vec2,
     meta::{MetaData, attribute::SampleType, header::Header},
 };
@@ -12,10 +16,10 @@ use half::{f16, slice::HalfFloatSliceExt};
 use rayon::prelude::*;
 
 use super::{
-    Band, Bands, Channels, RowMut, alpha,
+    Band, Bands, Channels, Limits, RowMut, alpha,
     band::{Holds, blocks_in_band},
     dwa,
-    exr_blocks::Blocks,
+    exr_blocks::{Blocks, Grid},
     exr_layout::{Layout, Plane},
     exr_read::message,
     guard::guarded,
@@ -24,52 +28,99 @@ use super::{
 /// Bytes of unpacked blocks held at once, beside the band: a file may have many channels that are not read.
 const BATCH_BYTES: usize = 1 << 26;
 
+/// How many times the samples of a block are held while it is unpacked: packed, between steps, and as they come out.
+const UNPACKING: u64 = 3;
+/// The same of DWA, which unpacks its sections one by one.
+const UNPACKING_DWA: u64 = 5;
+
+/// Refuses blocks that take more memory than [`Limits`] has.
+pub(super) fn check_memory(header: &Header, limits: &Limits) -> Result<()> {
+    let Vec2(width, height) = Grid::new(header).block;
+    limits.check_bytes("a block", [width as u64, height as u64], held(header))
+}
+
+/// Bytes of blocks held at once, at most: those on their way, and those that wait in a row that is more than a band.
+fn held(header: &Header) -> u64 {
+    let grid = Grid::new(header);
+    let (block, row) = (grid.bytes(header) as u64, grid.row_bytes(header) as u64);
+    let times = match header.compression {
+        Compression::Uncompressed => 2,
+        Compression::DWAA(_) | Compression::DWAB(_) => UNPACKING_DWA,
+        _ => UNPACKING,
+    };
+    let (width, down) = (header.layer_size.0, grid.count.1 as u64);
+    let tall = grid.is_tall(width);
+    let rows = if tall { row } else { row.saturating_mul((blocks_in_band(width, grid.block.1) as u64).min(down)) };
+    let batch = rows.min((BATCH_BYTES as u64).max(block));
+    batch.saturating_mul(times).saturating_add(if tall { row } else { 0 })
+}
+
 /// The pixels of the part that a [`Layout`] names.
 pub(super) struct ExrBands<R> {
     blocks: Blocks<R>,
     meta: MetaData,
     layout: Layout,
-    /// The next row of blocks.
+    /// The next row of pixels.
     next: usize,
+    /// The row of blocks that was begun, where it is more than a band.
+    begun: Vec<UncompressedBlock>,
 }
 
 impl<R: Read + Seek> ExrBands<R> {
     /// From the first row on.
     pub(super) fn new(blocks: Blocks<R>, meta: MetaData, layout: Layout) -> Self {
-        Self { blocks, meta, layout, next: 0 }
+        Self { blocks, meta, layout, next: 0, begun: Vec::new() }
     }
 
     fn header(&self) -> &Header {
         &self.meta.headers[self.layout.part]
+    }
+
+    /// The rows of the next band: whole rows of blocks, or a part of one.
+    fn next_rows(&self) -> Range<usize> {
+        let Vec2(width, height) = self.header().layer_size;
+        let grid = self.blocks.grid();
+        let end = if grid.is_tall(width) {
+            let own = (self.next / grid.block.1 + 1) * grid.block.1;
+            own.min(self.next + blocks_in_band(width, 1))
+        } else {
+            self.next + blocks_in_band(width, grid.block.1) * grid.block.1
+        };
+        self.next..end.min(height)
+    }
+
+    /// Unpacks blocks on all threads.
+    fn unpack(&mut self, blocks: &[usize]) -> Result<Vec<UncompressedBlock>> {
+        let packed: Vec<Chunk> =
+            blocks.iter().map(|&index| self.blocks.packed(index, &self.meta)).collect::<Result<_>>()?;
+        packed.into_par_iter().map(|chunk| unpack(chunk, &self.meta)).collect()
     }
 }
 
 impl<R: Read + Seek + Send> Bands for ExrBands<R> {
     fn next_into(&mut self, band: &mut Band) -> Result<()> {
         let grid = self.blocks.grid();
-        let Vec2(width, height) = self.header().layer_size;
-        let rows = self.next..(self.next + blocks_in_band(width, grid.block.1)).min(grid.count.1);
-        let top = (rows.start * grid.block.1).min(height);
-        let end = (rows.end * grid.block.1).min(height);
+        let width = self.header().layer_size.0;
+        let rows = self.next_rows();
         let channels = if self.layout.alpha.is_some() { Channels::Rgba } else { Channels::Rgb };
-        band.become_rows(top, end - top, width, channels)?;
+        band.become_rows(rows.start, rows.len(), width, channels)?;
 
+        let block_rows = rows.start / grid.block.1..rows.end.div_ceil(grid.block.1);
         let batch = (BATCH_BYTES / grid.bytes(self.header()).max(1)).max(1);
-        for batch in self.blocks.of_rows(rows.clone()).chunks(batch) {
-            let packed: Vec<Chunk> =
-                batch.iter().map(|&index| self.blocks.packed(index, &self.meta)).collect::<Result<_>>()?;
-            let unpacked: Vec<UncompressedBlock> =
-                packed.into_par_iter().map(|chunk| unpack(chunk, &self.meta)).collect::<Result<_>>()?;
-            let mut by_row = vec![Vec::new(); rows.len()];
-            for block in &unpacked {
-                by_row[block.index.pixel_position.1 / grid.block.1 - rows.start].push(block);
-            }
-            let bytes_per_pixel = self.header().channels.bytes_per_pixel;
-            band.rows_mut().enumerate().with_min_len(grid.block.1.min(8)).for_each(|(row, mut to)| {
-                for block in &by_row[row / grid.block.1] {
-                    self.layout.fill(&mut to, &Row { block, row: row % grid.block.1, bytes_per_pixel });
+        if grid.is_tall(width) {
+            if rows.start.is_multiple_of(grid.block.1) {
+                self.begun.clear();
+                for batch in self.blocks.of_rows(block_rows).chunks(batch) {
+                    let unpacked = self.unpack(batch)?;
+                    self.begun.extend(unpacked);
                 }
-            });
+            }
+            fill(&self.layout, self.header(), band, &self.begun);
+        } else {
+            for batch in self.blocks.of_rows(block_rows).chunks(batch) {
+                let unpacked = self.unpack(batch)?;
+                fill(&self.layout, self.header(), band, &unpacked);
+            }
         }
         self.next = rows.end;
         Ok(())
@@ -78,15 +129,26 @@ impl<R: Read + Seek + Send> Bands for ExrBands<R> {
     fn holds(&self) -> Holds {
         let grid = self.blocks.grid();
         let Vec2(width, height) = self.header().layer_size;
-        let down = blocks_in_band(width, grid.block.1).min(grid.count.1);
-        let block = grid.bytes(self.header()).max(1);
-        let batch = (BATCH_BYTES / block).clamp(1, down.saturating_mul(grid.count.0));
-        Holds {
-            band_pixels: width as u64 * (down * grid.block.1).min(height) as u64,
-            // Packed, unpacked, and on the way.
-            bytes_beside: 3 * (batch as u64).saturating_mul(block as u64),
-        }
+        let down = if grid.is_tall(width) { 1 } else { grid.block.1 };
+        let rows = blocks_in_band(width, down).saturating_mul(down).min(height);
+        Holds { band_pixels: width as u64 * rows as u64, bytes_beside: held(self.header()) }
     }
+}
+
+/// Fills in what blocks have of a band.
+fn fill(layout: &Layout, header: &Header, band: &mut Band, blocks: &[UncompressedBlock]) {
+    let side = header.max_block_pixel_size().1;
+    let (top, first) = (band.top, band.top / side);
+    let mut by_row = vec![Vec::new(); (top + band.rows()).div_ceil(side) - first];
+    for block in blocks {
+        by_row[block.index.pixel_position.1 / side - first].push(block);
+    }
+    let bytes_per_pixel = header.channels.bytes_per_pixel;
+    band.rows_mut().enumerate().with_min_len(side.min(8)).for_each(|(row, mut to)| {
+        for block in &by_row[(top + row) / side - first] {
+            layout.fill(&mut to, &Row { block, row: (top + row) % side, bytes_per_pixel });
+        }
+    });
 }
 
 fn unpack(chunk: Chunk, meta: &MetaData) -> Result<UncompressedBlock> {

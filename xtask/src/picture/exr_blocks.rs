@@ -9,7 +9,7 @@ use exr::{
     meta::{BlockDescription, MetaData, header::Header},
 };
 
-use super::{cannot_read, limits::allocate};
+use super::{band::BAND_PIXELS, cannot_read, limits::allocate};
 
 /// How the full-resolution picture is cut into blocks, in the order of the table.
 #[derive(Debug, Clone, Copy)]
@@ -30,6 +30,17 @@ impl Grid {
     /// Bytes of an unpacked block.
     pub(super) fn bytes(&self, header: &Header) -> usize {
         self.block.0.saturating_mul(self.block.1).saturating_mul(header.channels.bytes_per_pixel)
+    }
+
+    /// Bytes of a row of unpacked blocks.
+    pub(super) fn row_bytes(&self, header: &Header) -> usize {
+        let rows = self.block.1.min(header.layer_size.1);
+        header.layer_size.0.saturating_mul(rows).saturating_mul(header.channels.bytes_per_pixel)
+    }
+
+    /// Whether a row of blocks is more than a band, in a picture so wide.
+    pub(super) fn is_tall(&self, width: usize) -> bool {
+        width.saturating_mul(self.block.1) > BAND_PIXELS
     }
 }
 

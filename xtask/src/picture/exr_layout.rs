@@ -6,6 +6,8 @@ use exr::meta::{
     header::Header,
 };
 
+use super::guard::told;
+
 /// Most channel names that a message lists.
 const NAMES_LISTED: usize = 24;
 
@@ -48,7 +50,7 @@ pub(super) fn choose(parts: &[Header]) -> Result<Layout> {
     {
         bail!(
             "the channel `{}` is subsampled {} x {}, expected a sample of every channel at every pixel",
-            channel.name.to_string().escape_debug(),
+            told(&channel.name.to_string()),
             channel.sampling.0,
             channel.sampling.1
         );
@@ -56,13 +58,17 @@ pub(super) fn choose(parts: &[Header]) -> Result<Layout> {
 
     let mut notes = Vec::new();
     if parts.len() > 1 {
-        let name = part.own_attributes.layer_name.as_ref().map_or(String::new(), |name| format!(" (`{name}`)"));
+        let name = part
+            .own_attributes
+            .layer_name
+            .as_ref()
+            .map_or(String::new(), |name| format!(" (`{}`)", told(&name.to_string())));
         notes.push(format!("read part {}{name} of {} parts", index + 1, parts.len()));
     }
     if !group.layer.is_empty() {
         notes.push(format!(
             "read the layer `{}`, as there are no channels without a layer name that make a picture",
-            group.layer
+            told(&group.layer)
         ));
     }
     if group.set == Set::Grey {
@@ -136,8 +142,7 @@ impl Channel {
 
 fn names(parts: &[Header]) -> String {
     let all = || parts.iter().flat_map(|part| &part.channels.list);
-    let listed: Vec<String> =
-        all().take(NAMES_LISTED).map(|channel| channel.name.to_string().escape_debug().to_string()).collect();
+    let listed: Vec<String> = all().take(NAMES_LISTED).map(|channel| told(&channel.name.to_string())).collect();
     let more = all().count().saturating_sub(NAMES_LISTED);
     match (listed.is_empty(), more) {
         (true, _) => "(none)".to_owned(),

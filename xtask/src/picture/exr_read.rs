@@ -14,10 +14,10 @@ use exr::{
 
 use super::{
     Bands, Channels, Chromaticities, Description, Limits, Source, Windows,
-    exr_bands::ExrBands,
+    exr_bands::{self, ExrBands},
     exr_blocks::Blocks,
     exr_boxes, exr_layout,
-    guard::guarded,
+    guard::{guarded, told},
     limits::{check_claim, check_shown},
 };
 
@@ -67,7 +67,7 @@ pub(super) fn open<'a, R: BufRead + Seek + Send + 'a>(
 /// The crate's message made part of a sentence.
 pub(super) fn message(error: &exr::error::Error) -> String {
     use exr::error::Error;
-    match error {
+    let message = match error {
         Error::NotSupported(what) => format!("not supported: {what}"),
         Error::Invalid(what) if what == "reference to missing bytes" => {
             "the file ends too early (is it truncated?)".to_owned()
@@ -75,7 +75,8 @@ pub(super) fn message(error: &exr::error::Error) -> String {
         Error::Invalid(what) if what.starts_with("missing or invalid") => what.to_string(),
         Error::Invalid(what) => format!("invalid {}", what.replace("(invalid: ", "(")),
         other => other.to_string(),
-    }
+    };
+    told(&message)
 }
 
 /// Checks all that memory is taken for, before it is taken.
@@ -94,7 +95,8 @@ fn check(header: &Header, length: u64, limits: &Limits) -> Result<()> {
     }
     let expansion = expansion(header.compression)?;
     let claimed = (width * height).saturating_mul(header.channels.bytes_per_pixel as u64);
-    check_claim(width, height, claimed, length, expansion)
+    check_claim(width, height, claimed, length, expansion)?;
+    exr_bands::check_memory(header, limits)
 }
 
 /// The most bytes of samples that one byte of file can stand for, generously: zlib gives 1032, PXR24 a third more, the

@@ -4,18 +4,20 @@ use anyhow::{Result, anyhow, bail};
 
 /// The largest picture that is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Limits {
+pub struct Limits {
     /// Most pixels in one window.
-    pub(crate) max_pixels: u64,
+    pub max_pixels: u64,
     /// Longest side of a window, in pixels.
-    pub(crate) max_side: u64,
+    pub max_side: u64,
+    /// Most bytes held at once for what a file keeps in one piece, while it is unpacked: a block or a row of large tiles of
+    /// OpenEXR, a strip or a row of tiles of TIFF, an interlaced PNG. Beside them are bands of about a million pixels.
+    pub max_bytes: u64,
 }
 
 impl Default for Limits {
-    /// 268 million pixels (16384 x 16384) and sides up to 65535. Bands take little of that, but one tile or strip may be
-    /// the whole picture: 4 GiB as `f32` RGBA.
+    /// 268 million pixels (16384 x 16384), sides up to 65535, and 1 GiB.
     fn default() -> Self {
-        Self { max_pixels: 1 << 28, max_side: 65_535 }
+        Self { max_pixels: 1 << 28, max_side: 65_535, max_bytes: 1 << 30 }
     }
 }
 
@@ -30,6 +32,18 @@ impl Limits {
         }
         if width * height > self.max_pixels {
             bail!("{what} is {width} x {height} pixels, expected up to {} pixels", self.max_pixels);
+        }
+        Ok(())
+    }
+
+    /// Refuses what would take more than [`Limits::max_bytes`] at once; `what` names it in the message.
+    pub(super) fn check_bytes(&self, what: &str, [width, height]: [u64; 2], bytes: u64) -> Result<()> {
+        if bytes > self.max_bytes {
+            bail!(
+                "{what} of {width} x {height} pixels takes {} MiB of memory at once, expected up to {} MiB",
+                bytes.div_ceil(1 << 20),
+                self.max_bytes >> 20
+            );
         }
         Ok(())
     }

@@ -25,12 +25,14 @@ mod exr_read;
 mod exr_write;
 mod finished;
 mod guard;
+mod in_memory;
 mod limits;
 mod png_read;
 mod png_write;
 #[cfg(test)]
 mod tests;
 mod tiff_read;
+mod tiff_tags;
 
 use std::{
     fs::{self, File},
@@ -45,8 +47,11 @@ pub(crate) use self::{
     band::{Band, BandSink, BandView, Channels, Holds, RowMut},
     exr_write::{write_exr, write_exr_bands},
     finished::text_of_finished,
-    limits::Limits,
     png_write::{Bits, Coding, ColourTag, write_png_bands},
+};
+pub use self::{
+    in_memory::{read_picture, write_picture},
+    limits::Limits,
 };
 
 /// What the formats are called in messages.
@@ -81,15 +86,15 @@ impl Description {
 
 /// A picture as a file holds it, in memory.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Picture {
+pub struct Picture {
     /// Width of the data window, in pixels.
-    pub(crate) width: usize,
+    pub width: usize,
     /// Height of the data window, in pixels.
-    pub(crate) height: usize,
+    pub height: usize,
     /// `width * height` straight (not premultiplied) colours, top row first; NaN, infinities and negatives are kept.
-    pub(crate) rgb: Vec<[f32; 3]>,
+    pub rgb: Vec<[f32; 3]>,
     /// Coverage, as many as there are colours.
-    pub(crate) alpha: Option<Vec<f32>>,
+    pub alpha: Option<Vec<f32>>,
     /// Where the pixels lie and what part of the plane is shown.
     pub(crate) windows: Windows,
     /// The colour space of `rgb` where the file names it.
@@ -227,7 +232,7 @@ impl PictureReader<'_> {
 #[cfg(test)]
 pub(crate) fn read(path: &Path, limits: &Limits) -> Result<Picture> {
     let (file, length) = open_file(path).map_err(|error| at(path, &error))?;
-    tests::read_from(BufReader::new(file), length, limits).map_err(|error| at(path, &error))
+    in_memory::read_from(BufReader::new(file), length, limits).map_err(|error| at(path, &error))
 }
 
 /// Opens a picture of `length` bytes from `reader`, which is at its start.

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::{
     Band, Bands, Channels, Description, Limits, RowMut, Source,
     band::{Holds, blocks_in_band},
-    guard::guarded,
+    guard::{guarded, told},
     limits::{allocate, check_claim},
 };
 
@@ -55,6 +55,9 @@ fn start<'a, R: BufRead + Seek + Send + 'a>(
     let bits = if depth == BitDepth::Sixteen { 16 } else { 8 };
     let row_bytes = reader.output_line_size(reader.info().width).ok_or_else(|| anyhow!("the PNG is too large"))?;
     let interlaced = reader.info().interlaced;
+    if interlaced {
+        limits.check_bytes("an interlaced PNG", [width, height], (row_bytes as u64).saturating_mul(height))?;
+    }
     let description = Description::plain(width as usize, height as usize, channels, Source::Png { bits });
     let (width, height) = (width as usize, height as usize);
     let rows =
@@ -154,7 +157,11 @@ fn sentence(error: &DecodingError) -> anyhow::Error {
             let text = other.to_string();
             let detail = text.split("ChunkType").next().unwrap_or_default().trim_end_matches([':', ' ', '.']);
             let detail = detail.trim_end_matches(" while decoding");
-            if detail.is_empty() { anyhow!("the PNG is damaged") } else { anyhow!("the PNG is damaged: {detail}") }
+            if detail.is_empty() {
+                anyhow!("the PNG is damaged")
+            } else {
+                anyhow!("the PNG is damaged: {}", told(detail))
+            }
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Reading TIFF: grey and RGB, with and without alpha, of 8, 16 or 32 bits or floating point.
 
-use std::io::{ErrorKind, Read, Seek};
+use std::io::{ErrorKind, Read, Seek, SeekFrom};
 
 use anyhow::{Result, anyhow, bail};
 use rayon::prelude::*;
@@ -12,9 +12,10 @@ use tiff::{
 
 use super::{
     Band, Bands, Channels, Description, Limits, RowMut, Samples, Source, alpha,
-    band::{Holds, blocks_in_band},
-    guard::guarded,
+    band::{BAND_PIXELS, Holds, blocks_in_band},
+    guard::{guarded, told},
     limits::check_claim,
+    tiff_tags,
 };
 
 /// More than Deflate, LZW or PackBits can give for one byte.
@@ -33,10 +34,12 @@ pub(super) fn open<'a, R: Read + Seek + Send + 'a>(
 }
 
 fn start<'a, R: Read + Seek + Send + 'a>(
-    reader: R,
+    mut reader: R,
     length: u64,
     limits: &Limits,
 ) -> Result<(Description, Box<dyn Bands + 'a>)> {
+    tiff_tags::check(&mut reader, length)?;
+    reader.seek(SeekFrom::Start(0)).map_err(|error| super::cannot_read(&error))?;
     let mut decoder = Decoder::new(reader).map_err(sentence)?;
     let (width, height) = decoder.dimensions().map_err(sentence)?;
     let (width, height) = (u64::from(width), u64::from(height));
@@ -93,17 +96,19 @@ fn start<'a, R: Read + Seek + Send + 'a>(
         description.notes.push("left the TIFF's orientation as stored".to_owned());
     }
 
-    // Tiles and strips may reach over the border.
-    let most = usize::try_from(claimed)?.saturating_mul(2).saturating_add(1 << 24);
-    let mut allowed = tiff::decoder::Limits::default();
-    allowed.decoding_buffer_size = most;
-    allowed.intermediate_buffer_size = most;
-    let decoder = decoder.with_limits(allowed);
     let (chunk_width, chunk_height) = decoder.chunk_dimensions();
     let chunk = [chunk_width as usize, (chunk_height as usize).min(height)];
     if chunk.contains(&0) {
         bail!("the TIFF's strips or tiles are {chunk_width} x {chunk_height} pixels, expected at least 1 x 1");
     }
+    let together = [width.next_multiple_of(chunk[0]) as u64, chunk[1] as u64];
+    let bytes = (together[0].saturating_mul(together[1])).saturating_mul(samples as u64 * u64::from(bits / 8));
+    limits.check_bytes("a strip or row of tiles", together, bytes)?;
+    let most = usize::try_from(bytes)?.saturating_add(1 << 24);
+    let mut allowed = tiff::decoder::Limits::default();
+    allowed.decoding_buffer_size = most;
+    allowed.intermediate_buffer_size = most;
+    let decoder = decoder.with_limits(allowed);
     let bands = TiffBands {
         decoder,
         size: [width, height],
@@ -114,6 +119,7 @@ fn start<'a, R: Read + Seek + Send + 'a>(
         planes: layout.planes,
         coverage,
         next: 0,
+        begun: Vec::new(),
     };
     Ok((description, Box::new(bands)))
 }
@@ -138,20 +144,31 @@ struct TiffBands<R: Read + Seek> {
     /// 1 where a pixel's samples lie side by side, else one plane a sample.
     planes: usize,
     coverage: Coverage,
-    /// The next row of strips or tiles.
+    /// The next row of pixels.
     next: usize,
+    /// The row of strips or tiles that was begun.
+    begun: Vec<(Part, DecodingResult)>,
 }
 
 impl<R: Read + Seek + Send> Bands for TiffBands<R> {
     fn next_into(&mut self, band: &mut Band) -> Result<()> {
         let [width, height] = self.size;
-        let down = height.div_ceil(self.chunk[1]);
-        let rows = self.next..(self.next + blocks_in_band(width, self.chunk[1])).min(down);
-        let top = (rows.start * self.chunk[1]).min(height);
-        let end = (rows.end * self.chunk[1]).min(height);
-        band.become_rows(top, end - top, width, self.channels)?;
-        for row in rows.clone() {
-            self.fill(band, row)?;
+        let together = self.chunk[1];
+        // Whole rows of strips or tiles, or a part of one.
+        let end = if self.is_tall() {
+            (self.next + blocks_in_band(width, 1)).min((self.next / together + 1) * together)
+        } else {
+            self.next + blocks_in_band(width, together) * together
+        };
+        let rows = self.next..end.min(height);
+        band.become_rows(rows.start, rows.len(), width, self.channels)?;
+        for row in rows.start / together..rows.end.div_ceil(together) {
+            if row * together >= rows.start {
+                self.begin(row)?;
+            }
+            for (part, samples) in &self.begun {
+                part.place(samples, band)?;
+            }
         }
         if self.coverage == Coverage::Premultiplied {
             band.rows_mut().for_each(|row| {
@@ -165,19 +182,25 @@ impl<R: Read + Seek + Send> Bands for TiffBands<R> {
     }
 
     fn holds(&self) -> Holds {
-        let [width, height] = self.size.map(|side| side as u64);
-        let [across, down] = self.chunk.map(|side| side as u64);
-        let rows = (blocks_in_band(self.size[0], self.chunk[1]) as u64).saturating_mul(down).min(height);
-        let samples = if self.planes > 1 { 1 } else { self.samples as u64 };
-        // Packed and unpacked.
-        let bytes_beside = 2 * across.saturating_mul(down).saturating_mul(samples * self.sample_bytes);
-        Holds { band_pixels: width * rows, bytes_beside }
+        let ([width, height], [across, down]) = (self.size, self.chunk);
+        let rows = if self.is_tall() { blocks_in_band(width, 1) } else { blocks_in_band(width, down) * down };
+        let pixels = |width: usize| (width as u64).saturating_mul(down as u64);
+        // A row of strips or tiles unpacked, one of them packed.
+        let bytes = pixels(width.next_multiple_of(across)).saturating_add(pixels(across));
+        let bytes_beside = bytes.saturating_mul(self.samples as u64 * self.sample_bytes);
+        Holds { band_pixels: width as u64 * rows.min(height) as u64, bytes_beside }
     }
 }
 
 impl<R: Read + Seek> TiffBands<R> {
-    /// Fills in a row of strips or tiles.
-    fn fill(&mut self, band: &mut Band, row: usize) -> Result<()> {
+    /// Whether a row of strips or tiles is more than a band.
+    fn is_tall(&self) -> bool {
+        self.size[0].saturating_mul(self.chunk[1]) > BAND_PIXELS
+    }
+
+    /// Unpacks a row of strips or tiles.
+    fn begin(&mut self, row: usize) -> Result<()> {
+        self.begun.clear();
         let across = self.size[0].div_ceil(self.chunk[0]);
         let down = self.size[1].div_ceil(self.chunk[1]);
         for plane in 0..self.planes {
@@ -186,15 +209,14 @@ impl<R: Read + Seek> TiffBands<R> {
                 let decoder = &mut self.decoder;
                 let ((width, height), samples) =
                     guarded(|| (decoder.chunk_data_dimensions(index), decoder.read_chunk(index)))?;
-                let samples = samples.map_err(sentence)?;
                 let part = Part {
                     left: column * self.chunk[0],
-                    first_row: row * self.chunk[1] - band.top,
+                    top: row * self.chunk[1],
                     size: [width as usize, height as usize],
                     samples: self.samples,
                     plane: (self.planes > 1).then_some(plane),
                 };
-                part.place(&samples, band)?;
+                self.begun.push((part, samples.map_err(sentence)?));
             }
         }
         Ok(())
@@ -204,8 +226,8 @@ impl<R: Read + Seek> TiffBands<R> {
 /// Where the samples of a strip or tile go.
 struct Part {
     left: usize,
-    /// Counted from the band's first.
-    first_row: usize,
+    /// Its first row in the picture.
+    top: usize,
     size: [usize; 2],
     /// Samples of a pixel, of all planes.
     samples: usize,
@@ -230,17 +252,19 @@ impl Part {
     fn put<T: Copy + Sync>(&self, samples: &[T], band: &mut Band, value: impl Fn(T) -> f32 + Sync) -> Result<()> {
         let [width, height] = self.size;
         let step = if self.plane.is_some() { 1 } else { self.samples };
-        let fits = self.left + width <= band.width && self.first_row + height <= band.rows();
-        if samples.len() != width * height * step || !fits {
+        if samples.len() != width * height * step || self.left + width > band.width {
             bail!(
                 "the TIFF gives {} samples for {width} x {height} pixels of {step} channels in a strip or tile",
                 samples.len()
             );
         }
-        if samples.is_empty() {
+        // The rows that both have.
+        let rows = self.top.max(band.top)..(self.top + height).min(band.top + band.rows());
+        if samples.is_empty() || rows.is_empty() {
             return Ok(());
         }
-        let rows = band.some_rows_mut(self.first_row..self.first_row + height);
+        let samples = &samples[(rows.start - self.top) * width * step..(rows.end - self.top) * width * step];
+        let rows = band.some_rows_mut(rows.start - band.top..rows.end - band.top);
         let rows = rows.zip(samples.par_chunks_exact(width * step)).with_min_len(SAMPLES_TOGETHER / (width * step) + 1);
         rows.for_each(|(mut row, samples)| {
             for (channel, first) in (self.plane.unwrap_or(0)..self.samples).zip(0..step) {
@@ -271,10 +295,10 @@ fn sentence(error: TiffError) -> anyhow::Error {
         TiffError::IoError(error)
             if error.kind() == ErrorKind::InvalidData || error.kind() == ErrorKind::InvalidInput =>
         {
-            anyhow!("the TIFF is damaged: {error}")
+            anyhow!("the TIFF is damaged: {}", told(&error.to_string()))
         }
         TiffError::IoError(error) => super::cannot_read(&error),
         TiffError::LimitsExceeded => anyhow!("the TIFF asks for more memory than its size explains"),
-        other => anyhow!("the TIFF cannot be read: {other}"),
+        other => anyhow!("the TIFF cannot be read: {}", told(&other.to_string())),
     }
 }

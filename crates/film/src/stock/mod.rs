@@ -115,7 +115,7 @@ pub struct Stock {
 }
 
 impl Stock {
-    /// Reads a stock from the text of its files.
+    /// Reads a stock from the text of its files: `stock.toml` of at most 64 KiB, tables of at most 4 MiB.
     ///
     /// # Errors
     /// The first thing that is wrong, with file, line, what was found and what was expected.
@@ -125,7 +125,10 @@ impl Stock {
         if sheet.id != text.id {
             return Err(Error::stock(
                 text.id,
-                format!("stock.toml has id {:?}, expected that of its folder", sheet.id),
+                format!(
+                    "stock.toml has id {:?}, expected that of its folder",
+                    sheet.id.chars().take(64).collect::<String>()
+                ),
             ));
         }
         let sensitivity = NumberTable::parse(&file("sensitivity.csv"), text.sensitivity_csv)?;

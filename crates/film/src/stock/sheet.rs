@@ -11,6 +11,11 @@ use crate::densitometry::Densitometry;
 /// The version of the format that this crate reads.
 pub(super) const VERSION: u32 = 1;
 
+/// More text than any sheet needs.
+const MAX_BYTES: usize = 64 * 1024;
+/// Most characters of a reader's message, which may repeat what the file has.
+const MESSAGE_CHARACTERS: usize = 300;
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Sheet {
@@ -90,9 +95,14 @@ pub struct Uncertainty {
 
 pub(super) fn parse(file: &str, text: &str) -> Result<Sheet, Error> {
     let problem = |line: usize, problem: String| Error::from(Kind::Sheet { file: file.to_owned(), line, problem });
+    if text.len() > MAX_BYTES {
+        return Err(problem(1, format!("{} bytes, expected at most {MAX_BYTES}", text.len())));
+    }
     let sheet: Sheet = toml::from_str(text).map_err(|error| {
-        let line = error.span().map_or(1, |span| text[..span.start].matches('\n').count() + 1);
-        problem(line, error.message().trim_end().replace('\n', " "))
+        let start = error.span().map_or(0, |span| span.start);
+        let line = text.bytes().take(start).filter(|byte| *byte == b'\n').count() + 1;
+        let plain = |c: char| if c.is_control() { ' ' } else { c };
+        problem(line, error.message().trim_end().chars().take(MESSAGE_CHARACTERS).map(plain).collect())
     })?;
     if sheet.version != VERSION {
         return Err(problem(line_of(text, "version"), format!("version: found {}, expected {VERSION}", sheet.version)));
@@ -137,4 +147,25 @@ fn line_of(text: &str, key: &str) -> usize {
 
 pub(super) fn aim(section: &AimSection) -> PerLayer<f64> {
     PerLayer::from(section.status_a)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sheet_of_a_million_lines_is_refused() {
+        let error = parse("film/stock.toml", &"version = 1\n".repeat(1_000_000)).unwrap_err();
+        assert_eq!(error.to_string(), "film/stock.toml:1: 12000000 bytes, expected at most 65536");
+    }
+
+    #[test]
+    fn a_message_repeats_no_more_than_the_beginning() {
+        let key = "k\u{e4}".repeat(9000);
+        for text in [format!("version = 1\n{key} = 1\n"), format!("version = \"{key}\"\n"), format!("kind = '{key}'\n")]
+        {
+            let sentence = parse("film/stock.toml", &text).unwrap_err().to_string();
+            assert!(sentence.len() < 700 && sentence.starts_with("film/stock.toml:"), "{sentence}");
+        }
+    }
 }

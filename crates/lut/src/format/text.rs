@@ -9,6 +9,9 @@ pub(super) const RESERVED: usize = 1 << 16;
 /// The most bytes of a word of a file that an error repeats.
 const QUOTED_BYTES: usize = 40;
 
+/// The most bytes of another crate's message.
+const TOLD_BYTES: usize = 160;
+
 /// All of a text of at most `max` bytes; bytes that are not UTF-8 are replaced.
 pub(super) fn read_text(input: impl Read, max: u64) -> Result<String, Error> {
     let mut bytes = Vec::new();
@@ -32,9 +35,19 @@ pub(super) fn number<T: FromStr + Copy + Into<f64>>(what: &'static str, word: &s
 
 /// A word as an error repeats it.
 pub(super) fn shortened(word: &str) -> String {
-    match word.char_indices().find(|&(at, _)| at > QUOTED_BYTES) {
-        Some((at, _)) => format!("{}...", &word[..at]),
-        None => word.to_owned(),
+    cut(word, QUOTED_BYTES)
+}
+
+/// What another crate says, as part of a sentence: it may repeat a whole file.
+pub(super) fn told(message: &str) -> String {
+    cut(message, TOLD_BYTES)
+}
+
+fn cut(text: &str, most: usize) -> String {
+    let plain = |text: &str| text.replace(char::is_control, " ");
+    match text.char_indices().find(|&(at, _)| at > most) {
+        Some((at, _)) => format!("{}...", plain(&text[..at])),
+        None => plain(text),
     }
 }
 

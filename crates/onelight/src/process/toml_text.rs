@@ -29,6 +29,8 @@ impl<'de> Deserialize<'de> for FormatVersion {
 
 /// More text than any description needs.
 const MAX_BYTES: usize = 64 * 1024;
+/// Most characters of a message: the reader of TOML may repeat a whole value. Ours are shorter.
+const MESSAGE_CHARACTERS: usize = 500;
 
 /// Every key, for messages; a test holds it against the struct.
 const KEYS: [&str; 23] = [
@@ -60,13 +62,17 @@ const KEYS: [&str; 23] = [
 const FIRST_KEYS: [&str; 5] = ["contrast", "brightness", "temperature", "saturation", "curve"];
 
 impl Process {
-    /// Reads a description; `file` is the name that messages carry. Keys left out have their default, `print` the one
+    /// Reads a description of at most 64 KiB; `file` is the name that messages carry. Keys left out have their default, `print` the one
     /// that goes with the camera film; `version` is needed.
     ///
     /// # Errors
     /// If it is no TOML, has an unknown key or word (the message names line and nearest), or another version.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, Error> {
-        let at = |line: usize, problem: String| Error::from(Kind::Look { file: file.to_owned(), line, problem });
+        let at = |line: usize, problem: String| {
+            let plain = |c: char| if c.is_control() { ' ' } else { c };
+            let problem = problem.chars().take(MESSAGE_CHARACTERS).map(plain).collect();
+            Error::from(Kind::Look { file: file.to_owned(), line, problem })
+        };
         if text.len() > MAX_BYTES {
             return Err(at(1, format!("{} bytes, expected at most {MAX_BYTES}", text.len())));
         }
@@ -275,6 +281,21 @@ mod tests {
         assert_eq!(message("version = \"1\"\n"), "look.toml:1: version: found a word in quotes, expected 1");
         assert_eq!(message("version = 1.0\n"), "look.toml:1: version: found a number, expected 1");
         assert_eq!(message("version = -3\n"), "look.toml:1: version: found -3, expected 1");
+    }
+
+    #[test]
+    fn a_message_is_one_short_line() {
+        let value = "v\u{7}".repeat(9000);
+        for text in [
+            format!("version = '{}'\n", "v".repeat(9000)),
+            format!("version = 1\naim = {value}\n"),
+            format!("version = 1\n[first]\ncurve = '{}'\n", "v".repeat(9000)),
+            format!("version = 1\ncalibration = \"{}\"\n", "\\n".repeat(9000)),
+        ] {
+            let sentence = message(&text);
+            assert!(sentence.len() < 600 && !sentence.contains(char::is_control), "{sentence}");
+        }
+        assert!(message(&"version = 1\n".repeat(1_000_000)).contains("12000000 bytes, expected at most 65536"));
     }
 
     #[test]

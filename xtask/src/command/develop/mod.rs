@@ -71,6 +71,8 @@ struct Many {
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,
     /// GiB that pictures beside each other may take; one that takes more runs alone [default: 1]
+    ///
+    /// Above 1 it is also the limit of what a picture holds in one piece, a tile or a strip (docs/limits.md).
     #[arg(long, value_name = "GIB")]
     memory: Option<Memory>,
 }
@@ -117,7 +119,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
             InputPrimaries::OfFile
         },
         target,
-        limits: Limits { max_pixels: arguments.max_pixels, ..Limits::default() },
+        limits: Limits {
+            max_pixels: arguments.max_pixels,
+            max_bytes: memory.unwrap_or_default().bytes().max(Limits::default().max_bytes),
+            ..Limits::default()
+        },
     };
     let output = folders::shown(&arguments.output);
     if let Some(plan) = plan {

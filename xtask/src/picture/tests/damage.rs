@@ -30,7 +30,7 @@ fn good_files() -> Vec<Good> {
 
 fn assert_sound(name: &str, bytes: &[u8]) {
     // Small limits, so that a damaged header does not make the test slow.
-    let limits = Limits { max_pixels: 1 << 14, max_side: 1 << 12 };
+    let limits = Limits { max_pixels: 1 << 14, max_side: 1 << 12, max_bytes: 1 << 26 };
     match read_from(Cursor::new(bytes), bytes.len() as u64, &limits) {
         Ok(picture) => {
             let count = picture.width * picture.height;

@@ -8,7 +8,7 @@ mod refusals;
 
 use std::io::Cursor;
 
-use super::*;
+use super::{in_memory::read_from, *};
 
 /// A picture that compresses, with a value in it that few things survive.
 fn sample(width: usize, height: usize) -> Picture {
@@ -22,26 +22,6 @@ fn sample(width: usize, height: usize) -> Picture {
         *colour = [f32::INFINITY, f32::NAN, -3.5];
     }
     Picture::opaque(width, height, rgb, Source::Exr)
-}
-
-/// Reads all bands of a picture of `length` bytes.
-pub(super) fn read_from<R: BufRead + Seek + Send>(reader: R, length: u64, limits: &Limits) -> Result<Picture> {
-    let (description, mut bands) = open_from(reader, length, limits)?;
-    let Description { width, height, channels, windows, primaries, source, notes } = description;
-    let alpha = (channels == Channels::Rgba).then(Vec::new);
-    let mut picture = Picture { width, height, rgb: Vec::new(), alpha, windows, primaries, source, notes };
-    let mut band = Band::default();
-    loop {
-        bands.next_into(&mut band)?;
-        if band.rows() == 0 {
-            return Ok(picture);
-        }
-        assert_eq!((band.top * width, band.width), (picture.rgb.len(), width));
-        picture.rgb.extend_from_slice(&band.rgb);
-        if let (Some(all), Some(some)) = (&mut picture.alpha, &band.alpha) {
-            all.extend_from_slice(some);
-        }
-    }
 }
 
 /// Hands a picture over in bands of a few rows.

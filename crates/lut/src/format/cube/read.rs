@@ -3,7 +3,7 @@ mod lines;
 
 use std::io::BufRead;
 
-use super::CubeFile;
+use super::{CubeFile, printable};
 use crate::error::{Error, TextProblem};
 use header::{Header, Layout};
 use lines::Lines;
@@ -82,13 +82,37 @@ impl CubeFile {
             })?),
         };
         body.check_complete().map_err(end)?;
-        let title = match header.title() {
-            Some(title) => title,
-            None => title_in_comments(&body.layout, &mut comments),
-        };
-        let file = body.layout.file(body.entries)?;
-        Ok(file.with_title(&title).with_comments(comments))
+        let title = header.title().unwrap_or_default();
+        let mut file = body.layout.file(body.entries)?.with_title(&title);
+        let mut comments: Vec<String> = comments.iter().map(|text| printable(text).trim_end().to_owned()).collect();
+        if file.may_have_title_in_comments() {
+            file = file.with_title(&take_title(&mut comments));
+        }
+        file = file.with_comments(comments);
+        // What a long comment was cut into would be taken for a title next time.
+        if file.may_have_title_in_comments() {
+            let title = take_title(&mut file.comments);
+            file = file.with_title(&title);
+        }
+        Ok(file)
     }
+}
+
+impl CubeFile {
+    /// Whether [`CubeFile::write`] would have put a title into the first comment.
+    fn may_have_title_in_comments(&self) -> bool {
+        self.title.is_empty() && self.lut1d.is_some() && self.lut3d.is_some()
+    }
+}
+
+/// Takes the title out of the first comment.
+fn take_title(comments: &mut Vec<String>) -> String {
+    let title = |comment: &String| Some(comment.strip_prefix("TITLE \"")?.strip_suffix('"')?.trim().to_owned());
+    let titles: Vec<String> = comments.iter().map_while(title).collect();
+    // Empty ones are not written again.
+    let empty = titles.iter().take_while(|title| title.is_empty()).count();
+    comments.drain(..titles.len().min(empty + 1));
+    titles.into_iter().nth(empty).unwrap_or_default()
 }
 
 /// The data lines so far, of both tables in one row.
@@ -117,20 +141,6 @@ impl Body {
         let [found, expected] = [self.entries.len(), self.expected];
         if found == expected { Ok(()) } else { Err(TextProblem::Truncated { found, expected }) }
     }
-}
-
-/// Takes the title out of the first comment, where [`CubeFile::write`] puts it in a file with two tables.
-fn title_in_comments(layout: &Layout, comments: &mut Vec<String>) -> String {
-    let title = match (layout, comments.first()) {
-        (Layout::Both(..), Some(first)) => {
-            first.strip_prefix("TITLE \"").and_then(|rest| rest.strip_suffix('"')).map(str::to_owned)
-        }
-        _ => None,
-    };
-    if title.is_some() {
-        comments.remove(0);
-    }
-    title.unwrap_or_default()
 }
 
 /// Whether a line holds numbers rather than a keyword; "nan" and "inf" are numbers, though bad ones.

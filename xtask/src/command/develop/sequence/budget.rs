@@ -19,6 +19,12 @@ impl Default for Memory {
     }
 }
 
+impl Memory {
+    pub(crate) fn bytes(self) -> u64 {
+        self.bytes
+    }
+}
+
 impl FromStr for Memory {
     type Err = String;
 

@@ -2,7 +2,7 @@ use quick_xml::XmlVersion;
 use quick_xml::events::BytesStart;
 
 use crate::error::TextProblem;
-use crate::format::text::{number, shortened};
+use crate::format::text::{number, shortened, told};
 
 /// The most attributes of one element that are read.
 const MAX_ATTRIBUTES: usize = 32;
@@ -25,8 +25,9 @@ impl Element {
             if attributes.len() == MAX_ATTRIBUTES {
                 return Err(TextProblem::TooMany { what: "attributes of an element", max: MAX_ATTRIBUTES });
             }
-            let attribute = attribute.map_err(|error| bad(error.to_string()))?;
-            let value = attribute.normalized_value(XmlVersion::Implicit1_0).map_err(|error| bad(error.to_string()))?;
+            let attribute = attribute.map_err(|error| bad(told(&error.to_string())))?;
+            let value =
+                attribute.normalized_value(XmlVersion::Implicit1_0).map_err(|error| bad(told(&error.to_string())))?;
             attributes.push((attribute.key.local_name().into_inner().to_owned(), value.into_owned()));
         }
         Ok(Self { at, name: start.local_name().into_inner().to_owned(), attributes })

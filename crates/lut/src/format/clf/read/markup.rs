@@ -6,7 +6,7 @@ use quick_xml::events::{BytesRef, Event};
 
 use super::element::Element;
 use crate::error::{Error, TextProblem};
-use crate::format::text::shortened;
+use crate::format::text::{shortened, told};
 
 /// The parts of an XML text, each with the byte where it starts.
 pub(super) struct Markup<'a> {
@@ -152,7 +152,7 @@ impl<'a> Markup<'a> {
             Ok(event) => Ok((at, event)),
             Err(error) => {
                 let at = usize::try_from(self.reader.error_position()).unwrap_or(usize::MAX);
-                let found = error.to_string();
+                let found = told(&error.to_string());
                 Err(self.fail(at, TextProblem::Unexpected { what: "markup", found, expected: "well-formed XML" }))
             }
         }

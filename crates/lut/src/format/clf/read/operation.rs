@@ -6,7 +6,7 @@ use super::parameters::{exponent, log, range};
 use crate::domain::Domain;
 use crate::error::{Error, TextProblem};
 use crate::format::clf::op::Op;
-use crate::format::text::{RESERVED, number};
+use crate::format::text::{RESERVED, number, shortened};
 use crate::interpolate::Interpolation;
 use crate::lut1d::Lut1d;
 use crate::lut3d::Lut3d;
@@ -57,7 +57,7 @@ pub(super) fn read(markup: &mut Markup<'_>, start: &Element) -> Result<Op, Error
 fn check(start: &Element) -> Result<(), TextProblem> {
     if !matches!(start.name(), "Matrix" | "Range" | "Log" | "Exponent" | "LUT1D" | "LUT3D") {
         let [what, expected] = ["operation", "Matrix, Range, Log, Exponent, LUT1D or LUT3D"];
-        return Err(TextProblem::Unexpected { what, found: format!("<{}>", start.name()), expected });
+        return Err(TextProblem::Unexpected { what, found: format!("<{}>", shortened(start.name())), expected });
     }
     for depth in ["inBitDepth", "outBitDepth"] {
         if !matches!(start.required(depth, "32f or 16f")?, "32f" | "16f") {
@@ -85,7 +85,7 @@ fn content(markup: &mut Markup<'_>, start: &Element, child: Element) -> Result<C
         ("Matrix" | "LUT1D" | "LUT3D", "Array") => child,
         _ => {
             let [what, expected] = ["content of an operation", "what belongs to it"];
-            let found = format!("<{}> in <{}>", child.name(), start.name());
+            let found = format!("<{}> in <{}>", shortened(child.name()), shortened(start.name()));
             return Err(markup.fail(child.at(), TextProblem::Unexpected { what, found, expected }));
         }
     };

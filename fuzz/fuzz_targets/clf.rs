@@ -1,0 +1,6 @@
+//! CLF files.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    onelight_fuzz::lut::clf(bytes);
+});

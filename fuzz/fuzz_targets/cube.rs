@@ -1,0 +1,6 @@
+//! `.cube` files.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    onelight_fuzz::lut::cube(bytes);
+});

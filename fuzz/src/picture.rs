@@ -1,0 +1,39 @@
+use xtask::picture::{Limits, Picture, read_picture, write_picture};
+
+use super::{Met, lut, refused};
+
+/// Small, so that a hostile claim shows against libFuzzer's limits of memory.
+pub const LIMITS: Limits = Limits { max_pixels: 1 << 18, max_side: 1 << 13, max_bytes: 1 << 26 };
+
+/// A picture is refused, or has as many pixels as it says, and is the same when written as OpenEXR and read again.
+pub fn check(bytes: &[u8]) -> Met {
+    let picture = match read_picture(bytes, &LIMITS) {
+        Ok(picture) => picture,
+        Err(error) => return refused(&error),
+    };
+    let Picture { width, height, rgb, alpha, .. } = &picture;
+    assert!((*width as u64) * (*height as u64) <= LIMITS.max_pixels);
+    assert_eq!(rgb.len(), width * height);
+    assert!(alpha.as_ref().is_none_or(|alpha| alpha.len() == rgb.len()));
+
+    let written = write_picture(&picture).unwrap_or_else(|error| panic!("cannot be written: {error:#}"));
+    let again = read_picture(&written, &LIMITS).unwrap_or_else(|error| panic!("our own file is refused: {error:#}"));
+    assert_eq!((again.width, again.height), (*width, *height));
+    match (alpha, &again.alpha) {
+        // Colours went through a multiplication and a division.
+        (Some(alpha), Some(again)) => assert!(same(alpha, again), "coverage changed"),
+        (None, None) => assert!(same(rgb.as_flattened(), again.rgb.as_flattened()), "colours changed"),
+        _ => panic!("coverage came or went"),
+    }
+    Met::Read
+}
+
+/// The same for a PNG, which may also hold a table.
+pub fn check_png(bytes: &[u8]) -> Met {
+    lut::png(bytes);
+    check(bytes)
+}
+
+fn same(a: &[f32], b: &[f32]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+}
