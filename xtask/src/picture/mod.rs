@@ -1,10 +1,10 @@
 //! Pictures in and out of the runner: OpenEXR, PNG and TIFF to straight `f32` RGB, and back to PNG and OpenEXR.
 //!
-//! Pictures go through in bands of rows: [`open`] gives a [`PictureReader`], [`write_png_bands`] and [`write_exr_bands`] take what was
+//! Pictures go through in bands of rows: `open` gives a `PictureReader`, `write_png_bands` and `write_exr_bands` take what was
 //! made of its bands. What a file keeps in one piece (a strip of TIFF, a row of tiles, an interlaced PNG) is held in
 //! one piece.
 //!
-//! [`open`] tells the format by the file's first bytes. Values are those of the file: linear for OpenEXR and float
+//! `open` tells the format by the file's first bytes. Values are those of the file: linear for OpenEXR and float
 //! TIFF, coded 0..1 for integers, whose transfer curve the caller undoes. Premultiplied colour is divided by alpha on
 //! the way in and multiplied on the way out, so that a look sees the colour of things and not of their coverage.
 //!
