@@ -127,75 +127,48 @@ impl sealed::Sealed for f16 {
     }
 }
 
-impl Sample for u16 {
-    #[inline]
-    fn to_f32(self) -> f32 {
-        f32::from(self) * (1.0 / 65535.0)
-    }
+/// Integers that stand for 0 to 1.
+macro_rules! integer {
+    ($sample:ty) => {
+        impl Sample for $sample {
+            #[inline]
+            fn to_f32(self) -> f32 {
+                f32::from(self) * (1.0 / <$sample>::MAX as f32)
+            }
 
-    #[inline]
-    fn from_f32(value: f32) -> Self {
-        // The cast saturates and takes NaN for 0.
-        (value * 65535.0 + 0.5) as Self
-    }
+            #[inline]
+            fn from_f32(value: f32) -> Self {
+                // The cast saturates and takes NaN for 0.
+                (value * <$sample>::MAX as f32 + 0.5) as Self
+            }
+        }
+
+        impl sealed::Sealed for $sample {
+            type Raw = Self;
+
+            fn as_raw(samples: &[Self]) -> &[Self] {
+                samples
+            }
+
+            fn as_raw_mut(samples: &mut [Self]) -> &mut [Self] {
+                samples
+            }
+
+            #[inline(always)]
+            fn values<L: Simd>(_: L, bits: L::u32s) -> L::f32s {
+                bits.bitcast::<L::i32s>().to_float::<L::f32s>() * (1.0 / <$sample>::MAX as f32)
+            }
+
+            #[inline(always)]
+            fn codes<L: Simd>(simd: L, values: L::f32s) -> L::u32s {
+                unorm::<L>(simd, values, <$sample>::MAX as f32)
+            }
+        }
+    };
 }
 
-impl sealed::Sealed for u16 {
-    type Raw = Self;
-
-    fn as_raw(samples: &[Self]) -> &[Self] {
-        samples
-    }
-
-    fn as_raw_mut(samples: &mut [Self]) -> &mut [Self] {
-        samples
-    }
-
-    #[inline(always)]
-    fn values<L: Simd>(_: L, bits: L::u32s) -> L::f32s {
-        bits.bitcast::<L::i32s>().to_float::<L::f32s>() * (1.0 / 65535.0)
-    }
-
-    #[inline(always)]
-    fn codes<L: Simd>(simd: L, values: L::f32s) -> L::u32s {
-        unorm::<L>(simd, values, 65535.0)
-    }
-}
-
-impl Sample for u8 {
-    #[inline]
-    fn to_f32(self) -> f32 {
-        f32::from(self) * (1.0 / 255.0)
-    }
-
-    #[inline]
-    fn from_f32(value: f32) -> Self {
-        // The cast saturates and takes NaN for 0.
-        (value * 255.0 + 0.5) as Self
-    }
-}
-
-impl sealed::Sealed for u8 {
-    type Raw = Self;
-
-    fn as_raw(samples: &[Self]) -> &[Self] {
-        samples
-    }
-
-    fn as_raw_mut(samples: &mut [Self]) -> &mut [Self] {
-        samples
-    }
-
-    #[inline(always)]
-    fn values<L: Simd>(_: L, bits: L::u32s) -> L::f32s {
-        bits.bitcast::<L::i32s>().to_float::<L::f32s>() * (1.0 / 255.0)
-    }
-
-    #[inline(always)]
-    fn codes<L: Simd>(simd: L, values: L::f32s) -> L::u32s {
-        unorm::<L>(simd, values, 255.0)
-    }
-}
+integer!(u16);
+integer!(u8);
 
 /// 0 to 1 as 0 to `most`, rounded; NaN as 0.
 #[inline(always)]

@@ -246,17 +246,7 @@ mod tests {
     fn row(kind: Kind, detail: &str, ns: f64, max: f64) -> Row {
         let time = Timing { ns, median_ns: ns };
         let error = Error { mean: max / 10.0, max, ..Error::default() };
-        Row {
-            kind,
-            detail: detail.to_owned(),
-            size: None,
-            storage: None,
-            coding: None,
-            nodes: None,
-            bytes: None,
-            time,
-            error,
-        }
+        Row::bare(kind, detail, time, error)
     }
 
     #[test]

@@ -58,6 +58,12 @@ impl Error {
 }
 
 impl Row {
+    /// What is neither stored nor made of terms.
+    pub(super) fn bare(kind: Kind, detail: &str, time: Timing, error: Error) -> Self {
+        let detail = detail.to_owned();
+        Self { kind, detail, size: None, storage: None, coding: None, nodes: None, bytes: None, time, error }
+    }
+
     /// `structured 32, f16`
     pub(super) fn name(&self) -> String {
         format!("{} {}", self.kind.name(), self.detail).trim_end().to_owned()
@@ -142,17 +148,8 @@ impl Prepared {
                 error,
             })
         });
-        let reference = times.last().map(|&time| Row {
-            kind: Kind::Reference,
-            detail: "float64, 1 nm".to_owned(),
-            size: None,
-            storage: None,
-            coding: None,
-            nodes: None,
-            bytes: None,
-            time,
-            error: Error::default(),
-        });
+        let reference = times.last();
+        let reference = reference.map(|&time| Row::bare(Kind::Reference, "float64, 1 nm", time, Error::default()));
         let mut rows: Vec<Row> = rows.chain(reference).collect();
         rows.sort_by_key(|row| row.kind);
         Look { name: self.process.name(), title: self.title.clone(), process: self.process.clone(), rows }

@@ -245,18 +245,7 @@ mod tests {
     fn row(kind: Kind, detail: &str, (ns, bytes): (f64, usize), max: f64) -> Row {
         let time = Timing { ns, median_ns: ns };
         let error = Error { mean: max / 10.0, max, ..Error::default() };
-        let bytes = Some(bytes);
-        Row {
-            kind,
-            detail: detail.to_owned(),
-            size: None,
-            storage: None,
-            coding: None,
-            nodes: None,
-            bytes,
-            time,
-            error,
-        }
+        Row { bytes: Some(bytes), ..Row::bare(kind, detail, time, error) }
     }
 
     fn said(rows: Vec<Row>) -> Vec<String> {
