@@ -12,6 +12,8 @@ pub(crate) enum Kind {
     Sheet { file: String, line: usize, problem: String },
     Stock { id: String, problem: String },
     Camera { what: &'static str, found: f64, expected: &'static str },
+    InterImage { what: &'static str, found: f64 },
+    InterImageWord { found: String },
     Unmixing { stock: String, offset: f64 },
     Grids { found: SpectralShape, expected: SpectralShape },
 }
@@ -57,6 +59,15 @@ impl fmt::Display for Error {
             Kind::Sheet { file, line, problem } => write!(f, "{file}:{line}: {problem}"),
             Kind::Stock { id, problem } => write!(f, "{id}: {problem}"),
             Kind::Camera { what, found, expected } => write!(f, "{what}: found {found}, expected {expected}"),
+            Kind::InterImage { what, found } => write!(
+                f,
+                "inter-image effect, {what}: found {found}, expected 0 to {} log10 exposure for a unit of density",
+                crate::InterImage::MAX
+            ),
+            Kind::InterImageWord { found } => write!(
+                f,
+                "inter-image effect: found \"{found}\", expected none, negative, reversal, or two numbers such as 0.6,0.06"
+            ),
             Kind::Grids { found, expected } => {
                 let [found, expected] =
                     [found, expected].map(|s| format!("{}..{} nm by {}", s.first_nm(), s.last_nm(), s.step_nm()));

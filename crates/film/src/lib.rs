@@ -3,6 +3,7 @@
 //! - [`Stock`]: a film, read from the text of its data sheet
 //! - [`ExposureMatrix`]: scene RGB to the exposure of the three layers; [`Camera`], [`FrameBufferScale`]: physical units
 //! - [`CharacteristicCurve`]: density over log exposure; [`Densitometry`]: status M and A
+//! - [`InterImageEffect`]: layers that hold back each other's development
 //! - [`DyeModel`]: characteristic curves to amounts of dye; [`Dyes`]: amounts to spectral density
 //!
 //! ```
@@ -31,14 +32,14 @@
 //! ```
 //!
 //! # Out of scope
-//! Printers and projectors, look-up tables, displays; grain, halation and inter-layer effects, which data sheets do not
-//! give. Keys in square brackets are resolved in REFERENCES.md at the top of the repository.
+//! Printers and projectors, look-up tables, displays; grain and halation. Keys in square brackets are resolved in REFERENCES.md at the top of the repository.
 
 mod curve;
 mod densitometry;
 mod dye;
 mod error;
 mod exposure;
+mod inter_image;
 mod layer;
 mod sensitivity;
 mod stock;
@@ -49,6 +50,7 @@ pub use densitometry::Densitometry;
 pub use dye::{DyeDensity, DyeModel, Dyes};
 pub use error::Error;
 pub use exposure::{Camera, ExposureMatrix, FrameBufferScale, Matching};
+pub use inter_image::{InterImage, InterImageEffect, InterImageOrigin};
 pub use layer::{LAYER_NAMES, PerLayer};
 pub use sensitivity::{SpectralSensitivity, Tail};
 pub use stock::{ExposureAxis, MidGrey, Normalisation, Origin, SheetText, Stock, StockKind, Uncertainty};
