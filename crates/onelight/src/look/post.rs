@@ -1,35 +1,19 @@
 use nalgebra::{Matrix3, Matrix3x4, Vector3, Vector4};
 use onelight_printing::NEUTRAL_DENSITY;
 use onelight_spectra::{Kelvin, TransferCurve, lamp_rgb_w_per_m2};
-use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-
-/// What a hand can change in the first approach: the table `[first]` of `look.toml`. The defaults change nothing.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct FirstControls {
-    /// Steepness about the code of mid grey, 0 to 4: 1.2 is dE 3.5 in the mean.
-    pub contrast: f64,
-    /// Added to the display-coded value, -1 to 1: 0.05 is dE 3.8 in the mean.
-    pub brightness: f64,
-    /// Colour of the light that white should look like, 2000 to 20000 K: 5000 K is dE 5.3 in the mean.
-    pub temperature: f64,
-    /// Distance from the grey of the same luma, 0 to 4: 1.3 is dE 2.8 in the mean.
-    pub saturation: f64,
-    /// Points that the tone curve is bent through: stops about mid grey, and display-coded value.
-    pub curve: Vec<[f64; 2]>,
-}
-
-impl Default for FirstControls {
-    fn default() -> Self {
-        let temperature = Kelvin::WHITE.value();
-        Self { contrast: 1.0, brightness: 0.0, temperature, saturation: 1.0, curve: Vec::new() }
-    }
-}
+use crate::process::FirstControls;
 
 /// The post-colour controls as one matrix on display-coded RGB and 1: colour temperature, then saturation, contrast,
 /// brightness (\[Gotanda2010\], first approach).
+///
+/// ```
+/// use onelight::{FirstControls, PostColour};
+/// let grey = PostColour::new(&FirstControls { saturation: 0.0, ..Default::default() })?.apply([0.7, 0.5, 0.2]);
+/// assert!((grey[0] - grey[2]).abs() < 1e-12);
+/// # Ok::<(), onelight::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PostColour(Matrix3x4<f64>);
 
@@ -65,7 +49,7 @@ impl PostColour {
     /// Display-coded RGB, changed; not clipped.
     #[must_use]
     pub fn apply(&self, coded: [f64; 3]) -> [f64; 3] {
-        (self.0 * Vector4::new(coded[0], coded[1], coded[2], 1.0)).data.0[0]
+        (self.0 * Vector4::new(coded[0], coded[1], coded[2], 1.0)).into()
     }
 
     /// The matrix; its last column is added.

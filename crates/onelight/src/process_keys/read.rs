@@ -1,36 +1,13 @@
-//! `look.toml`.
+//! `look.toml` as text.
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
-
-use super::{Process, default_print};
+use super::keys::ProcessKeys;
+use super::version::VERSION;
 use crate::error::{Error, Kind};
-use crate::stocks::{cut, nearest};
-
-/// The version of the format that this crate reads and writes: 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct FormatVersion;
-
-const VERSION: i64 = 1;
-
-impl Serialize for FormatVersion {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_i64(VERSION)
-    }
-}
-
-impl<'de> Deserialize<'de> for FormatVersion {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        match i64::deserialize(deserializer)? {
-            VERSION => Ok(Self),
-            found => Err(de::Error::custom(format!("version: found {found}, expected {VERSION}"))),
-        }
-    }
-}
+use crate::message::{cut, nearest, one_line};
+use crate::process::{Process, default_print};
 
 /// More text than any description needs.
 const MAX_BYTES: usize = 64 * 1024;
-/// Most characters of a message: the reader of TOML may repeat a whole value. Ours are shorter.
-const MESSAGE_CHARACTERS: usize = 500;
 
 /// Every key, for messages; a test holds it against the struct.
 const KEYS: [&str; 23] = [
@@ -60,18 +37,18 @@ const KEYS: [&str; 23] = [
 ];
 /// The keys of the table `[first]`.
 const FIRST_KEYS: [&str; 5] = ["contrast", "brightness", "temperature", "saturation", "curve"];
+/// The keys that only data sheets of one's own need.
+const SHEET_KEYS: [&str; 4] = ["camera_sheet", "camera_sha256", "print_sheet", "print_sha256"];
 
-impl Process {
-    /// Reads a description of at most 64 KiB; `file` is the name that messages carry. Keys left out have their default, `print` the one
-    /// that goes with the camera film; `version` is needed.
+impl ProcessKeys {
+    /// Reads a `look.toml` of at most 64 KiB; `file` is the name that messages carry. Keys left out have their default, `print` the
+    /// one that goes with the camera film; `version` is needed. Whether the keys go together is not looked at yet.
     ///
     /// # Errors
     /// If it is no TOML, has an unknown key or word (the message names line and nearest), or another version.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, Error> {
         let at = |line: usize, problem: String| {
-            let plain = |c: char| if c.is_control() { ' ' } else { c };
-            let problem = problem.chars().take(MESSAGE_CHARACTERS).map(plain).collect();
-            Error::from(Kind::Look { file: file.to_owned(), line, problem })
+            Error::from(Kind::Look { file: file.to_owned(), line, problem: one_line(&problem) })
         };
         if text.len() > MAX_BYTES {
             return Err(at(1, format!("{} bytes, expected at most {MAX_BYTES}", text.len())));
@@ -82,7 +59,7 @@ impl Process {
         };
         let first_line = |error: &toml::de::Error| error.message().lines().next().unwrap_or_default().to_owned();
         let table: toml::Table = toml::from_str(text).map_err(|error| at(line_of(&error), first_line(&error)))?;
-        let mut process: Self = toml::from_str(text).map_err(|error| {
+        let mut keys: Self = toml::from_str(text).map_err(|error| {
             let line = line_of(&error);
             let problem = match error.message().split('`').collect::<Vec<_>>()[..] {
                 ["unknown field ", key, ..] => unknown_key(key),
@@ -98,22 +75,45 @@ impl Process {
             return Err(at(1, format!("no version, expected `version = {VERSION}`")));
         }
         if !table.contains_key("print") {
-            process.print = default_print(&process.camera)?;
+            if keys.camera_sheet.is_some() {
+                let problem = "no print beside camera_sheet, expected the id of a print film, or none";
+                return Err(at(1, problem.to_owned()));
+            }
+            keys.print = default_print(&keys.camera)?.map(str::to_owned);
         }
-        Ok(process)
+        Ok(keys)
+    }
+
+    /// The keys as `look.toml`: all of them, with their default or not, and those of own sheets where there are any.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        // Writing words and numbers to a string cannot fail; were it to, an empty file would be refused on reading.
+        toml::to_string(self).unwrap_or_default()
+    }
+}
+
+impl Process {
+    /// Reads a description of at most 64 KiB; `file` is the name that messages carry. Keys left out have their default, `print` the
+    /// one that goes with the camera film; `version` is needed. For a look with data sheets of one's own see
+    /// [`ProcessKeys::process_with`].
+    ///
+    /// # Errors
+    /// If it is no TOML, has an unknown key or word (the message names line and nearest), another version, or a key that
+    /// changes nothing.
+    pub fn from_toml(file: &str, text: &str) -> Result<Self, Error> {
+        ProcessKeys::from_toml(file, text)?.process()
     }
 
     /// The description as `look.toml`: every key, with its default or not.
     #[must_use]
     pub fn to_toml(&self) -> String {
-        // Serialising strings and one number cannot fail; were it to, an empty file would be refused on reading.
-        toml::to_string(self).unwrap_or_default()
+        ProcessKeys::from(self).to_toml()
     }
 }
 
 fn unknown_key(found: &str) -> String {
     let key = cut(found);
-    match nearest(found, KEYS.into_iter().chain(FIRST_KEYS)) {
+    match nearest(found, KEYS.into_iter().chain(FIRST_KEYS).chain(SHEET_KEYS)) {
         Some(meant) => format!("unknown key {key:?}, did you mean {meant:?}?"),
         None => format!("unknown key {key:?}, expected one of {}", KEYS.join(", ")),
     }
@@ -143,59 +143,6 @@ fn wrong_type(table: &toml::Table, written: &str) -> Option<String> {
     Some(format!("{key}: found {found}, expected {expected}"))
 }
 
-/// `filters`: a list of numbers as words.
-pub(super) mod filters {
-    use onelight_printing::{Filters, Wratten};
-    use serde::{Deserialize, Deserializer, Serializer, de};
-
-    use crate::word::Word;
-
-    pub(crate) fn serialize<S: Serializer>(filters: &Filters, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(filters.iter().map(Word::word))
-    }
-
-    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Filters, D::Error> {
-        let words = Vec::<String>::deserialize(deserializer)?;
-        let filters: Result<Vec<Wratten>, _> = words.iter().map(|word| Wratten::parse(word)).collect();
-        Ok(Filters::of(&filters.map_err(de::Error::custom)?))
-    }
-}
-
-/// `calibration`: `"exact"`, or a number of iterations.
-pub(super) mod calibration {
-    use onelight_printing::Calibration;
-    use serde::{Deserialize, Deserializer, Serializer, de};
-
-    use super::Process;
-
-    pub(crate) fn serialize<S: Serializer>(calibration: &Calibration, serializer: S) -> Result<S::Ok, S::Error> {
-        match calibration {
-            Calibration::Exact => serializer.serialize_str("exact"),
-            Calibration::Iterations(count) => serializer.collect_str(count),
-        }
-    }
-
-    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Calibration, D::Error> {
-        Process::parse_calibration(&String::deserialize(deserializer)?).map_err(de::Error::custom)
-    }
-}
-
-/// `print`: an id, or `"none"`.
-pub(super) mod print {
-    use serde::{Deserialize, Deserializer, Serializer, de};
-
-    use super::Process;
-
-    #[expect(clippy::ref_option, reason = "the signature serde asks for")]
-    pub(crate) fn serialize<S: Serializer>(print: &Option<String>, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(print.as_deref().unwrap_or("none"))
-    }
-
-    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<String>, D::Error> {
-        Process::parse_print(&String::deserialize(deserializer)?).map_err(de::Error::custom)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -217,18 +164,18 @@ mod tests {
     #[test]
     fn switches_go_there_and_back() {
         use onelight_printing::{Calibration, Filters, Wratten};
-        let look = Process {
+        let look = ProcessKeys {
             filters: Filters::of(&[Wratten::No99, Wratten::No70]),
             calibration: Calibration::Iterations(2),
             points: [1.0, -2.5, 0.0],
             first: crate::FirstControls { curve: vec![[-1.0, 0.3], [0.5, 0.6]], ..Default::default() },
-            ..Process::default()
+            ..ProcessKeys::default()
         };
         let text = look.to_toml();
         assert!(text.contains("filters = [\"70\", \"99\"]") && text.contains("calibration = \"2\""), "{text}");
-        assert_eq!(Process::from_toml("look.toml", &text).unwrap(), look);
+        assert_eq!(ProcessKeys::from_toml("look.toml", &text).unwrap(), look);
         let short = "version = 1\nneutral_density = 1\n[first]\ncontrast = 2\n";
-        let look = Process::from_toml("look.toml", short).unwrap();
+        let look = ProcessKeys::from_toml("look.toml", short).unwrap();
         assert_eq!((look.neutral_density, look.first.contrast, look.first.saturation), (1.0, 2.0, 1.0));
         assert!(message("version = 1\ncalibration = \"31\"\n").contains("exact, or 0 to 30"));
         assert!(message("version = 1\nfilters = [\"71\"]\n").contains("one of 70, 99, 98, 2b"));
@@ -300,7 +247,7 @@ mod tests {
 
     #[test]
     fn print_follows_the_camera() {
-        let print = |text: &str| Process::from_toml("look.toml", text).unwrap().print;
+        let print = |text: &str| ProcessKeys::from_toml("look.toml", text).unwrap().print;
         assert_eq!(print("version = 1\ncamera = \"fuji-velvia-50\"\n"), None);
         assert_eq!(print("version = 1\n").as_deref(), Some("kodak-2383"));
         assert_eq!(print("version = 1\nprint = \"none\"\n"), None);

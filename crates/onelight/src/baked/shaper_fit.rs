@@ -1,13 +1,16 @@
 //! Offset and range of the plain form's shaper, fitted to a look or to a scene.
 
-use anyhow::Result;
-use onelight::lut::{DirectForm, Interpolation, PlainLut, SceneSampler, Shaper, bake_form};
-use onelight::spectra::{DisplayDifference, ciede2000};
-use onelight::{DirectSettings, Look, Nodes};
+use onelight_lut::{DirectForm, Interpolation, PlainLut, SceneSampler, Shaper, bake_form};
+use onelight_spectra::{DisplayDifference, ciede2000};
 use rayon::prelude::*;
 
+use crate::direct::{DirectSettings, Nodes};
+use crate::error::Error;
+use crate::look::Look;
+use crate::scene::MID_GREY;
+
 /// What a shaper is fitted to.
-pub(crate) enum Fitted<'a> {
+pub(super) enum Fitted<'a> {
     /// Colours of all exposures and saturations: the look in general.
     Look {
         /// Where the range ends, in stops about mid grey; `None` tries several.
@@ -33,24 +36,24 @@ fn corners(peak: f64) -> impl Iterator<Item = [f64; 3]> {
     (1..7usize).map(move |bits| std::array::from_fn(|c| if bits >> c & 1 == 1 { peak } else { 0.0 }))
 }
 
-/// The shaper whose table comes nearest to the film.
-pub(crate) fn fitted_to(film: &Look, target: &Fitted) -> Result<Shaper> {
+/// The shaper whose table comes nearest to the look.
+pub(super) fn fitted_to(look: &Look, target: &Fitted) -> Result<Shaper, Error> {
     let (colours, ranges): (Vec<[f64; 3]>, Vec<f64>) = match target {
         Fitted::Look { stops } => {
             let ranges = stops.map_or(RANGES.to_vec(), |stops| vec![stops]);
             let last = ranges.iter().copied().fold(STOPS.0, f64::max);
             let mut colours: Vec<[f64; 3]> = SceneSampler::new(STOPS.0..=last)?.take(TRIAL_COLOURS).collect();
-            colours.extend(corners(SceneSampler::MID_GREY * last.exp2()));
-            (colours, ranges.iter().map(|stops| SceneSampler::MID_GREY * stops.exp2()).collect())
+            colours.extend(corners(MID_GREY * last.exp2()));
+            (colours, ranges.iter().map(|stops| MID_GREY * stops.exp2()).collect())
         }
         Fitted::Scene(colours) => {
-            let brightest = colours.iter().flatten().copied().fold(SceneSampler::MID_GREY, f64::max);
+            let brightest = colours.iter().flatten().copied().fold(MID_GREY, f64::max);
             let every = colours.len().div_ceil(TRIAL_COLOURS);
             (colours.iter().step_by(every).copied().collect(), vec![brightest])
         }
     };
-    let trial = Trial::new(film, &colours)?;
-    let tried: Vec<Result<(f64, f64)>> =
+    let trial = Trial::new(look, &colours)?;
+    let tried: Vec<Result<(f64, f64), Error>> =
         ranges.par_iter().map(|&max| golden(|exponent| trial.error(exponent, max))).collect();
     let mut best: Option<(f64, Shaper)> = None;
     for (max, tried) in ranges.into_iter().zip(tried) {
@@ -65,12 +68,12 @@ pub(crate) fn fitted_to(film: &Look, target: &Fitted) -> Result<Shaper> {
     }
 }
 
-fn shaper(exponent: f64, max: f64) -> Result<Shaper> {
+fn shaper(exponent: f64, max: f64) -> Result<Shaper, Error> {
     Ok(Shaper::log2(exponent.exp2(), max)?)
 }
 
 /// Least value of `f` over [`OFFSETS`] and where it is, by golden section.
-fn golden(f: impl Fn(f64) -> Result<f64>) -> Result<(f64, f64)> {
+fn golden(f: impl Fn(f64) -> Result<f64, Error>) -> Result<(f64, f64), Error> {
     let ratio = 0.5 * (5f64.sqrt() - 1.0);
     let (mut low, mut high) = OFFSETS;
     let (mut a, mut b) = (high - ratio * (high - low), low + ratio * (high - low));
@@ -89,9 +92,9 @@ fn golden(f: impl Fn(f64) -> Result<f64>) -> Result<(f64, f64)> {
     Ok(if error_a <= error_b { (error_a, a) } else { (error_b, b) })
 }
 
-/// Colours and what the film makes of them.
+/// Colours and what the look makes of them.
 struct Trial<'a> {
-    film: &'a Look,
+    look: &'a Look,
     /// Stands for a film: what it misses is small beside what the tables do.
     baking: Option<DirectForm>,
     difference: DisplayDifference,
@@ -100,34 +103,34 @@ struct Trial<'a> {
 }
 
 impl<'a> Trial<'a> {
-    fn new(film: &'a Look, colours: &[[f64; 3]]) -> Result<Self> {
-        let baking = match film {
+    fn new(look: &'a Look, colours: &[[f64; 3]]) -> Result<Self, Error> {
+        let baking = match look {
             Look::Film(film) => Some(film.direct(&DirectSettings { nodes: Nodes::Grid { step_nm: 10 } })?),
-            Look::First(_) | Look::Baseline(_) => None,
+            Look::First(_) | Look::Tone(_) => None,
         };
-        let difference = film.difference()?;
+        let difference = look.difference()?;
         let pairs = colours.par_iter().map(|&rgb| {
             let single = rgb.map(|v| v as f32);
             let linear = match &baking {
-                Some(form) => form.apply(single).map(|v| film.coding().decode(f64::from(v))),
-                None => film.develop_linear(rgb),
+                Some(form) => form.apply(single).map(|v| look.coding().decode(f64::from(v))),
+                None => look.develop_linear(rgb),
             };
             (single, difference.lab(linear))
         });
         let pairs = pairs.collect();
-        Ok(Self { film, baking, difference, pairs })
+        Ok(Self { look, baking, difference, pairs })
     }
 
     /// Mean difference of a small table, and a hundredth of the largest: clipped colours are few.
-    fn error(&self, exponent: f64, max: f64) -> Result<f64> {
+    fn error(&self, exponent: f64, max: f64) -> Result<f64, Error> {
         let shaper = shaper(exponent, max)?;
         let at = |t: [f64; 3]| t.map(|t| shaper.decode(t));
         let table = match &self.baking {
             Some(form) => bake_form(TRIAL_SIZE, at, form)?,
-            None => self.film.bake(TRIAL_SIZE, at)?,
+            None => self.look.bake(TRIAL_SIZE, at)?,
         };
         let lut = PlainLut::new(shaper, table, Interpolation::Tetrahedral);
-        let coding = self.film.coding();
+        let coding = self.look.coding();
         let read = |rgb: [f32; 3]| self.difference.lab(lut.apply(rgb).map(|v| coding.decode(f64::from(v))));
         let all: Vec<f64> = self.pairs.par_iter().map(|(rgb, exact)| ciede2000(*exact, read(*rgb))).collect();
         Ok(all.iter().sum::<f64>() / all.len() as f64 + all.iter().copied().fold(0.0, f64::max) / 100.0)

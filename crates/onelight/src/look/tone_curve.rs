@@ -6,11 +6,30 @@ use crate::error::{Error, Kind};
 /// The tone-curve texture of the first approach: what one channel shows over its exposure, gamma-corrected (sRGB-coded).
 ///
 /// A table over log10 exposure about that of mid grey, linear between its texels, held beyond its ends.
+///
+/// ```
+/// use onelight::{ToneCurve, stock};
+/// let film = stock("fuji-velvia-50")?;
+/// let curve = ToneCurve::reversal(&film, "green", film.characteristic().green, 0.7)?;
+/// assert!(curve.at(0.3) > curve.at(0.0) && curve.at(0.0) > curve.at(-0.3));
+/// # Ok::<(), onelight::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToneCurve {
     first: f64,
     step: f64,
     texels: Vec<f64>,
+}
+
+/// The numbers of a [`ToneCurve`], as a texture takes them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Texels<'a> {
+    /// Display-coded values at equal steps of log10 exposure.
+    pub values: &'a [f64],
+    /// log10 exposure of the first value, about that of mid grey.
+    pub first: f64,
+    /// log10 exposure of the last value.
+    pub last: f64,
 }
 
 /// Texels of a curve: its error is below 0.008 dE.
@@ -43,12 +62,12 @@ impl ToneCurve {
         curve: &CharacteristicCurve,
         print: &Stock,
         layer: &'static str,
-        paper: &CharacteristicCurve,
+        print_curve: &CharacteristicCurve,
         density: f64,
     ) -> Result<Self, Error> {
-        let (grey, paper_grey) = (negative.mid_grey()?, reached(print, layer, paper, density)?);
+        let (grey, print_grey) = (negative.mid_grey()?, reached(print, layer, print_curve, density)?);
         let orange = curve.density(grey).0;
-        let through = |h| paper.density(LogExposure(paper_grey.0 - (curve.density(h).0 - orange))).0;
+        let through = |h| print_curve.density(LogExposure(print_grey.0 - (curve.density(h).0 - orange))).0;
         Ok(Self::of(curve, grey, through))
     }
 
@@ -71,10 +90,11 @@ impl ToneCurve {
         self.texels[low] * (1.0 - part) + self.texels[low + 1] * part
     }
 
-    /// The texels, and the log10 exposures of the first and the last.
+    /// The curve's numbers and where they stand.
     #[must_use]
-    pub fn texels(&self) -> (&[f64], f64, f64) {
-        (&self.texels, self.first, self.first + self.step * (self.texels.len() - 1) as f64)
+    pub fn texels(&self) -> Texels<'_> {
+        let last = self.first + self.step * (self.texels.len() - 1) as f64;
+        Texels { values: &self.texels, first: self.first, last }
     }
 
     /// The curve bent through points (stops about mid grey, coded value): values between two points move smoothly with them,
@@ -181,7 +201,7 @@ mod tests {
     fn an_edited_curve_never_falls() {
         for points in [&[[0.0, 0.8]][..], &[[-3.0, 0.1], [-1.0, 0.1], [2.0, 0.84]], &[[1.0, 0.06]]] {
             let bent = velvia().edited(points).unwrap();
-            assert!(bent.texels().0.windows(2).all(|pair| pair[1] >= pair[0]), "{points:?}");
+            assert!(bent.texels().values.windows(2).all(|pair| pair[1] >= pair[0]), "{points:?}");
         }
     }
 }
