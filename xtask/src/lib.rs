@@ -1,15 +1,14 @@
 //! The onelight runner: `cargo xtask bake`, `develop`, `stocks`, `fixtures`. The only crate that touches files.
 
 mod buffers;
-mod certificate;
 mod command;
-mod compiled;
 mod direct_file;
 mod export;
 mod exposure;
 mod folders;
 mod likeness;
 mod look;
+mod own_stock;
 pub mod picture;
 mod plot;
 mod preview;

@@ -4,7 +4,7 @@ use anyhow::Result;
 use onelight::film::{Density, LogExposure, PerLayer};
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Basis, DisplayDifference, Reconstruction, RgbSpace, SpectralShape, color_checker};
-use onelight::{Aim, Process, Reference, Stock, StockKind, stock, stock_ids};
+use onelight::{Aim, FilmProcess, Reference, Stock, StockKind, stock, stock_ids};
 use serde::Serialize;
 
 /// One camera film in its usual process.
@@ -44,9 +44,9 @@ pub(crate) fn all() -> Result<Vec<Likeness>> {
 }
 
 fn of(film: &Stock) -> Result<Likeness> {
-    let process = Process::for_camera(film.id())?;
+    let process = FilmProcess::for_camera(film.id())?;
     let reference = process.compile()?;
-    let sheet = Process { aim: Aim::Sheet, ..process }.compile()?;
+    let sheet = FilmProcess { aim: Aim::Sheet, ..process }.compile()?;
     Ok(Likeness {
         id: film.id().to_owned(),
         curves: curves(film, &reference)?,

@@ -254,10 +254,7 @@ impl fmt::Display for Certified {
 impl fmt::Display for Tint {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { mid_grey, largest, stops } = self;
-        write!(
-            f,
-            "the film's own tint of greys: C* {mid_grey:.1} at 18 %, at most {largest:.1} at {stops:+} stops"
-        )
+        write!(f, "the film's own tint of greys: C* {mid_grey:.1} at 18 %, at most {largest:.1} at {stops:+} stops")
     }
 }
 
@@ -282,10 +279,7 @@ pub fn in_words(certificate: &Certificate, space: &str) -> String {
     );
     for band in &certificate.bands {
         let ([low, high], d) = (band.stops, &band.deviation);
-        text += &format!(
-            "  {low:>+3} to {high:>+3} stops: mean {:.3}, p99 {:.3}, max {:.3}\n",
-            d.mean, d.p99, d.max
-        );
+        text += &format!("  {low:>+3} to {high:>+3} stops: mean {:.3}, p99 {:.3}, max {:.3}\n", d.mean, d.p99, d.max);
     }
     let MeanAndMax { mean, max } = to_six_stops(certificate);
     text += &format!("  all to +6 stops: mean {mean:.3}, max {max:.3}\n");

@@ -31,8 +31,8 @@ pub use onelight_printing::{Aim, Calibration, Filters, HeatGlass, Infrared, Prin
 pub use onelight_spectra as spectra;
 pub use onelight_spectra::{Reconstruction, TransferCurve};
 pub use process::{
-    Approach, ColourSpaces, DEFAULT_CAMERA, DEFAULT_PRINT, FilmProcess, FirstControls, FirstProcess, OwnSheet, Printing,
-    Process, StockRef, ToneMapping, ToneProcess,
+    Approach, ColourSpaces, DEFAULT_CAMERA, DEFAULT_PRINT, FilmProcess, FirstControls, FirstProcess, OwnSheet,
+    Printing, Process, StockRef, ToneMapping, ToneProcess,
 };
 pub use process_keys::{FormatVersion, ProcessKeys, SheetKeys};
 pub use reference::{PrintStage, Reference, Stages};

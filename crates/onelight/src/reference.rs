@@ -95,10 +95,8 @@ impl Reference {
         let own_grey = PerLayer::all(film.mid_grey()?);
         // What takes longest, side by side.
         let of_print = |print: &Stock| -> Result<_, Error> { Ok(process.dyes.amounts(print, print_mid_grey(print)?)?) };
-        let (camera, print) = rayon::join(
-            || process.dyes.amounts(film, own_grey),
-            || films.print.as_ref().map(of_print).transpose(),
-        );
+        let (camera, print) =
+            rayon::join(|| process.dyes.amounts(film, own_grey), || films.print.as_ref().map(of_print).transpose());
         let (camera, print) = (camera?, print?);
         let shown = films.print.as_ref().unwrap_or(film);
         let projection = Projection::new(shown.dyes_on(SpectralShape::VISIBLE)?, process.projector, &output)?;

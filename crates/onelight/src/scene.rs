@@ -26,7 +26,8 @@ pub(crate) struct SceneInput {
 impl SceneInput {
     pub(crate) fn new(input: WorkingSpace) -> Result<Self, Error> {
         let to_srgb = input.space().to_about(&RgbSpace::SRGB, Chromaticity::black_body_6500_k())?;
-        let flat = || Kind::Contradiction(format!("the primaries of {input:?} are on one line, expected three colours"));
+        let flat =
+            || Kind::Contradiction(format!("the primaries of {input:?} are on one line, expected three colours"));
         let from_srgb = to_srgb.try_inverse().ok_or_else(flat)?;
         Ok(Self { to_srgb, from_srgb })
     }

@@ -6,10 +6,10 @@ use nalgebra::Vector3;
 use onelight_lut::{Certificate, DirectForm, Law, Maps, Samples, Search, certify};
 
 use super::fit::{fit, misses};
+use super::settings::{Nodes, check_limit};
 use super::stages::Stages;
 use super::sum::Sum;
 use super::training::{Sample, Training};
-use super::settings::{Nodes, check_limit};
 use crate::error::{Error, Kind};
 use crate::reference::Reference;
 

@@ -10,8 +10,8 @@ mod tone;
 use onelight_printing::Aim;
 
 pub use approach::Approach;
-pub(crate) use film::{check_exposure, check_lights};
 pub use film::{FilmProcess, Printing};
+pub(crate) use film::{check_exposure, check_lights};
 pub use first::{FirstControls, FirstProcess};
 pub use spaces::ColourSpaces;
 pub(crate) use stock_ref::default_print;

@@ -252,4 +252,3 @@ impl<'de> Deserialize<'de> for Process {
         ProcessKeys::deserialize(deserializer)?.process().map_err(de::Error::custom)
     }
 }
-

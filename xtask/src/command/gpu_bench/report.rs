@@ -15,7 +15,6 @@ use super::card::Card;
 use super::difference::{Difference, difference};
 use super::measure::{Subject, times};
 use super::pictures::{Sources, scene};
-use crate::compiled::{Fitted, fitted_to};
 use crate::whole::write_whole;
 use crate::{Report, folders};
 
@@ -86,11 +85,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Report> {
 
 impl Forms {
     fn new(film: &Reference) -> Result<Self> {
-        let shaper = fitted_to(&onelight::Look::from(film.clone()), &Fitted::Look { stops: None })?;
-        let table = bake(PLAIN_SIZE, &shaper, |rgb| film.develop(rgb), |_| {})?;
+        let baked = onelight::Look::from(film.clone()).baked(&Recipe::cube(PLAIN_SIZE))?;
+        let BakedForm::Plain(plain) = baked.form() else { bail!("a table with a shaper has another form") };
         let settings = StructuredSettings { size: STRUCTURED_SIZE, ..Default::default() };
         Ok(Self {
-            plain: PlainLut::new(shaper, table, Interpolation::Tetrahedral),
+            plain: plain.clone(),
             structured: film.structured(&settings)?,
             direct: film.direct(&Default::default())?,
         })

@@ -1,11 +1,10 @@
 //! The forms that are compared, and what they are called.
 
 use anyhow::{Context, Result};
+use onelight::baked::{Baked, BakedForm, Form, Recipe, ShaperChoice};
 use onelight::lut::Storage;
-use onelight::{DirectSettings, Entries, Look, Nodes, Process, Reference, TableCoding, Word};
+use onelight::{Entries, Look, Nodes, Reference, TableCoding, Word};
 use serde::Serialize;
-
-use crate::compiled::{Compiled, Form, Recipe, ShaperChoice};
 
 /// What a figure belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
@@ -67,7 +66,7 @@ pub(super) struct Made {
     pub(super) nodes: Option<[usize; 2]>,
     /// Of all tables and curves.
     pub(super) bytes: usize,
-    pub(super) form: Compiled,
+    pub(super) form: Baked,
     /// Which time it shares: on a processor all storages are read as 32-bit floats.
     pub(super) timed: usize,
 }
@@ -85,20 +84,20 @@ const GRIDS_NM: [usize; 5] = [1, 2, 5, 10, 20];
 const FITTED: [[usize; 2]; 9] = [[3, 4], [3, 5], [4, 6], [4, 7], [4, 8], [5, 9], [5, 10], [6, 12], [7, 14]];
 
 /// All forms of a look, those of one time next to each other.
-pub(super) fn all(film: &Reference, process: &Process, scope: Scope, done: impl Fn()) -> Result<Vec<Made>> {
+pub(super) fn all(film: &Reference, scope: Scope, done: impl Fn()) -> Result<Vec<Made>> {
     let look = Look::from(film.clone());
     let (plain, structured): (&[usize], &[usize]) = match scope {
         Scope::Full => (&[17, 33, 65], &[8, 16, 24, 32, 48, 64]),
         Scope::Quick => (&[17], &[8, 16]),
     };
-    let mut made = Made::direct(film, scope)?;
+    let mut made = Made::direct(&look, scope)?;
     done();
-    let usual = Recipe { entries: Entries::Fitted, ..Recipe::usual(Form::Plain) };
+    let usual = Recipe { entries: Entries::Fitted, ..Recipe::of(Form::Plain) };
     let talk = Recipe { size: 32, shaper: ShaperChoice::Gotanda, entries: Entries::Sampled, ..usual };
     let timed = |made: &[Made]| made.last().map_or(0, |last| last.timed + 1);
     let mut add = |kind, recipe: Recipe, stored: &[Storage], detail: &str| -> Result<()> {
         let group = timed(&made);
-        made.extend(Made::stored(&look, process, (kind, detail), &recipe, stored)?.map(|m| Made { timed: group, ..m }));
+        made.extend(Made::stored(&look, (kind, detail), &recipe, stored)?.map(|m| Made { timed: group, ..m }));
         done();
         Ok(())
     };
@@ -110,7 +109,7 @@ pub(super) fn all(film: &Reference, process: &Process, scope: Scope, done: impl 
     if scope == Scope::Full {
         add(Kind::Plain, Recipe { stops: Some(6.0), ..usual }, &[Storage::F16], " to +6")?;
     }
-    let usual = Recipe::usual(Form::Structured);
+    let usual = Recipe::of(Form::Structured);
     for &size in structured {
         add(Kind::Structured, Recipe { size, ..usual }, &STORED_DENSITY, "")?;
         // Finer tables gain nothing from entries as coarse as these.
@@ -133,17 +132,16 @@ impl Made {
     /// One table in several storages: fitted once.
     fn stored(
         look: &Look,
-        process: &Process,
         (kind, detail): (Kind, &str),
         recipe: &Recipe,
         stored: &[Storage],
     ) -> Result<impl Iterator<Item = Self>> {
-        let exact = Compiled::new(look, process, recipe, None)?;
-        let curves = match &exact {
-            Compiled::Structured(lut) => {
+        let exact = look.baked(recipe)?;
+        let curves = match exact.form() {
+            BakedForm::Structured(lut) => {
                 lut.parts().curves.size() + lut.parts().mix.as_ref().map_or(0, |mix| mix.curves.size())
             }
-            Compiled::Plain(_) | Compiled::Coded { .. } | Compiled::Direct(_) => 0,
+            BakedForm::Plain(_) | BakedForm::Coded { .. } | BakedForm::Direct(_) => 0,
         };
         let table = exact.table().context("a form without a table has no storage")?;
         let mut made = Vec::new();
@@ -164,15 +162,16 @@ impl Made {
     }
 
     /// Even grids of wavelengths, and fitted exponentials.
-    fn direct(film: &Reference, scope: Scope) -> Result<Vec<Self>> {
+    fn direct(look: &Look, scope: Scope) -> Result<Vec<Self>> {
         let grids = GRIDS_NM.into_iter().filter(|&nm| scope == Scope::Full || nm >= 10);
         let grids = grids.map(|step_nm| (Some(step_nm), Nodes::Grid { step_nm }));
         let fitted = FITTED.into_iter().filter(|counts| scope == Scope::Full || counts[1] == 9);
         let fitted = fitted.map(|[duplication, projection]| (None, Nodes::Counts { projection, duplication }));
         let mut made = Vec::new();
         for (timed, (step_nm, nodes)) in grids.chain(fitted).enumerate() {
-            let form = film.direct(&DirectSettings { nodes })?;
-            let parts = form.parts();
+            let form = look.baked(&Recipe { nodes, ..Recipe::of(Form::Direct) })?;
+            let BakedForm::Direct(direct) = form.form() else { continue };
+            let parts = direct.parts();
             let terms = [parts.print.as_ref().map_or(0, |p| p.exposure.terms().len()), parts.projection.terms().len()];
             let detail = step_nm.map_or_else(|| sum(terms), |step_nm| format!("{step_nm} nm"));
             let curves = parts.curves.size() + parts.print.as_ref().map_or(0, |p| p.curves.size());
@@ -184,7 +183,7 @@ impl Made {
                 coding: None,
                 nodes: Some(terms),
                 bytes: terms.iter().sum::<usize>() * TERM + curves * CURVE_POINT,
-                form: Compiled::Direct(Box::new(form)),
+                form,
                 timed,
             });
         }

@@ -1,6 +1,7 @@
 //! Speed and error of every form of a look.
 
 use anyhow::Result;
+use onelight::certify::{Certifier, MeanAndMax, to_six_stops};
 use onelight::lut::{Certificate, Law, Search};
 use onelight::{Process, Reference, Word, WorkingSpace, stock};
 use serde::Serialize;
@@ -8,7 +9,6 @@ use serde::Serialize;
 use super::forms::{self, Kind, Made, Scope};
 use super::frame::Frame;
 use super::stopwatch::{Pass, Timing, interleaved, mapping};
-use crate::certificate::{Measure, to_six_stops};
 use crate::progress::bar;
 
 /// A form and what it is worth.
@@ -45,7 +45,7 @@ pub(super) struct Error {
 
 impl Error {
     fn of(certificate: &Certificate) -> Self {
-        let (mean_to_six, max_to_six) = to_six_stops(certificate);
+        let MeanAndMax { mean: mean_to_six, max: max_to_six } = to_six_stops(certificate);
         Self {
             mean: certificate.overall.mean,
             worst_band: certificate.headline_mean,
@@ -105,10 +105,10 @@ impl Prepared {
     pub(super) fn new(process: &Process, scope: Scope) -> Result<Self> {
         let film = process.compile()?;
         let progress = bar("making forms", forms::steps(scope));
-        let made = forms::all(&film, process, scope, || progress.inc(1))?;
+        let made = forms::all(&film, scope, || progress.inc(1))?;
         progress.finish_and_clear();
         let look = onelight::Look::from(film.clone());
-        let measure = Measure::new(&look, process)?;
+        let measure = Certifier::new(&look)?;
         let progress = bar("certifying", 1 + made.len() as u64);
         let samples = measure.samples(&law(scope), WorkingSpace::Srgb)?;
         progress.inc(1);
@@ -158,10 +158,10 @@ impl Prepared {
 
 /// `KODAK VISION3 250D 5207 on KODAK 2383, neutral aim`
 fn title(process: &Process) -> Result<String> {
-    let camera = stock(&process.camera)?;
-    let print = process.print.as_deref().map(stock).transpose()?;
+    let camera = stock(process.film()?.camera.id())?;
+    let print = process.print().map(|print| stock(print.id())).transpose()?;
     let on = print.map_or_else(String::new, |print| format!(" on {}", print.name()));
-    Ok(format!("{}{on}, {} aim", camera.name(), process.aim.word()))
+    Ok(format!("{}{on}, {} aim", camera.name(), process.aim().word()))
 }
 
 /// Times all forms of all looks together; the last time is that of a copy.

@@ -30,6 +30,7 @@ use self::measure::{Look, Prepared, law, timed};
 use self::outside::Elsewhere;
 use self::stopwatch::Timing;
 use self::studies::{Growth, Studies, frame, growth, rounds};
+use super::certify::with_films;
 use crate::look::LookArguments;
 use crate::progress::Clock;
 use crate::whole::WholeSet;
@@ -127,12 +128,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
 
 /// The look asked for; without a word about films, the default negative and a reversal film.
 fn processes(arguments: &LookArguments) -> Result<Vec<Process>> {
-    let process = arguments.process()?;
+    let process = arguments.chosen()?.process;
     if arguments.names_film() {
         return Ok(vec![process]);
     }
-    let Process { camera, print, .. } = Process::for_camera(REVERSAL)?;
-    let reversal = Process { camera, print, ..process.clone() };
+    let reversal = with_films(&process, (REVERSAL.to_owned(), None), |_| {})?;
     Ok(vec![process, reversal])
 }
 

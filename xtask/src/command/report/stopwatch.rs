@@ -3,11 +3,11 @@
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail};
+use onelight::baked::{Baked, BakedForm};
 use onelight::lut::{Channels, PixelMap, Pixels, PixelsMut};
 use serde::Serialize;
 
 use super::frame::Frame;
-use crate::compiled::Compiled;
 
 /// Time that one pass of one thing should take; cheaper things do more rows.
 const PASS: Duration = Duration::from_millis(14);
@@ -33,7 +33,7 @@ impl Timing {
 pub(super) type Pass<'a> = Box<dyn Fn(usize, usize, &mut [f32]) -> Result<usize> + Sync + 'a>;
 
 /// A form over rows of the frame.
-pub(super) fn mapping<'a>(form: &'a Compiled, frame: &'a Frame) -> Pass<'a> {
+pub(super) fn mapping<'a>(form: &'a Baked, frame: &'a Frame) -> Pass<'a> {
     Box::new(move |first, every, buffer| {
         let from = frame.rows(first, every)?;
         let size = from.size();
@@ -43,12 +43,12 @@ pub(super) fn mapping<'a>(form: &'a Compiled, frame: &'a Frame) -> Pass<'a> {
 }
 
 /// A picture through a form, on the threads of the current pool.
-pub(super) fn map(form: &Compiled, from: &Pixels<'_, f32>, to: &mut PixelsMut<'_, f32>) -> Result<()> {
-    match form {
-        Compiled::Plain(lut) => lut.map(from, to)?,
-        Compiled::Structured(lut) => lut.map(from, to)?,
-        Compiled::Direct(direct) => direct.map(from, to)?,
-        Compiled::Coded { .. } => bail!("a table that takes coded colour is no form of its own"),
+pub(super) fn map(form: &Baked, from: &Pixels<'_, f32>, to: &mut PixelsMut<'_, f32>) -> Result<()> {
+    match form.form() {
+        BakedForm::Plain(lut) => lut.map(from, to)?,
+        BakedForm::Structured(lut) => lut.map(from, to)?,
+        BakedForm::Direct(direct) => direct.map(from, to)?,
+        BakedForm::Coded { .. } => bail!("a table that takes coded colour is no form of its own"),
     }
     Ok(())
 }

@@ -9,7 +9,7 @@ pub(super) use without::Card;
 mod without {
     use anyhow::{Result, bail};
 
-    use crate::compiled::Compiled;
+    use onelight::baked::Baked;
 
     pub(in super::super) struct Card;
 
@@ -22,7 +22,7 @@ mod without {
             "no card"
         }
 
-        pub(in super::super) fn develop(&self, _: &Compiled, _: &[[f32; 3]]) -> Result<Vec<[f64; 3]>> {
+        pub(in super::super) fn develop(&self, _: &Baked, _: &[[f32; 3]]) -> Result<Vec<[f64; 3]>> {
             bail!("this build knows no graphics cards")
         }
     }
@@ -40,7 +40,7 @@ mod with {
         TextureFormat, TextureUsages,
     };
 
-    use crate::compiled::Compiled;
+    use onelight::baked::{Baked, BakedForm};
 
     /// Pixels of a row: whole multiples of 256 bytes, as copies want them.
     const WIDTH: u32 = 256;
@@ -66,12 +66,12 @@ mod with {
         }
 
         /// Display-coded colours, by 32-bit floats throughout.
-        pub(in super::super) fn develop(&self, form: &Compiled, colours: &[[f32; 3]]) -> Result<Vec<[f64; 3]>> {
-            let form = match form {
-                Compiled::Plain(lut) => Form::from(lut),
-                Compiled::Structured(lut) => Form::from(lut.as_ref()),
-                Compiled::Direct(direct) => Form::from(direct.as_ref()),
-                Compiled::Coded { .. } => bail!("a table of coded light has no shader"),
+        pub(in super::super) fn develop(&self, form: &Baked, colours: &[[f32; 3]]) -> Result<Vec<[f64; 3]>> {
+            let form = match form.form() {
+                BakedForm::Plain(lut) => Form::from(lut),
+                BakedForm::Structured(lut) => Form::from(lut.as_ref()),
+                BakedForm::Direct(direct) => Form::from(direct.as_ref()),
+                BakedForm::Coded { .. } => bail!("a table of coded light has no shader"),
             };
             let settings = LookSettings { storage: Storage::F32, fetch: Fetch::Texels };
             let pass = FilmPass::with_settings(&self.device, &self.queue, form, TextureFormat::Rgba32Float, &settings)?;

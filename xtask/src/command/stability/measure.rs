@@ -1,17 +1,17 @@
 //! What is measured, and where it is worst.
 
 use anyhow::Result;
+use onelight::baked::{Baked, BakedForm, Form, Recipe};
 use onelight::lut::Sample;
 use onelight::spectra::ciede2000;
 use onelight::spectra::nalgebra::Vector3;
-use onelight::{Look, Process, TransferCurve, Word};
+use onelight::{Error, Look, Process, TransferCurve, Word};
 use rayon::prelude::*;
 
 use super::cases::{Case, Order, Strand, general};
 use super::gpu::Card;
 use super::places;
 use super::ways::{Kind, Way, ways};
-use crate::compiled::{Compiled, Form, Recipe};
 
 /// What can go wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -105,19 +105,17 @@ struct Measured {
 /// A process measured in every way; a call of `progress` for each of [`STEPS`].
 pub(super) fn rows(process: &Process, card: Option<&Card>, progress: impl Fn()) -> Result<Vec<Row>> {
     let look = process.look()?;
-    let forms: Vec<Compiled> = FORMS
-        .into_iter()
-        .map(|form| Compiled::new(&look, process, &Recipe::usual(form), None))
-        .collect::<Result<_>>()?;
+    let forms: Result<Vec<Baked>, Error> = FORMS.into_iter().map(|form| look.baked(&Recipe::of(form))).collect();
+    let forms = forms?;
     progress();
     let subject = Subject::new(process, look, &forms)?;
     let mut rows = subject.of_film();
     progress();
     let mut measured = Vec::new();
-    for (compiled, form) in forms.iter().zip(FORMS) {
-        let ways = ways(compiled, &subject.colours, card)?;
+    for (baked, form) in forms.iter().zip(FORMS) {
+        let ways = ways(baked, &subject.colours, card)?;
         let seen = ways.par_iter().map(|way| subject.seen(&way.coded)).collect::<Result<Vec<_>>>()?;
-        measured.push(Measured { form, end: compiled.max(), ways, seen });
+        measured.push(Measured { form, end: baked.max(), ways, seen });
         progress();
     }
     rows.extend(measured.iter().flat_map(|one| subject.of_form(one)));
@@ -131,19 +129,19 @@ pub(super) fn rows(process: &Process, card: Option<&Card>, progress: impl Fn()) 
 pub(super) const STEPS: usize = 2 + FORMS.len();
 
 impl Subject {
-    fn new(process: &Process, look: Look, forms: &[Compiled]) -> Result<Self> {
+    fn new(process: &Process, look: Look, forms: &[Baked]) -> Result<Self> {
         let film = look.film()?;
-        let mut cases = general(process.input_space)?;
+        let mut cases = general(process.spaces().input_space)?;
         cases.extend([places::steepest(film), places::dense(film)]);
         for form in forms {
-            match form {
-                Compiled::Plain(lut) => cases.push(places::plain_nodes(lut)),
-                Compiled::Structured(lut) => cases.extend([places::curve_nodes(film, lut), places::table_nodes(lut)]),
-                Compiled::Direct(_) | Compiled::Coded { .. } => {}
+            match form.form() {
+                BakedForm::Plain(lut) => cases.push(places::plain_nodes(lut)),
+                BakedForm::Structured(lut) => cases.extend([places::curve_nodes(film, lut), places::table_nodes(lut)]),
+                BakedForm::Direct(_) | BakedForm::Coded { .. } => {}
             }
         }
-        let luminance = process.output_space.space().to_xyz()?.row(1).transpose();
-        let name = format!("{}, {} aim", process.name(), process.aim.word());
+        let luminance = process.spaces().output_space.space().to_xyz()?.row(1).transpose();
+        let name = format!("{}, {} aim", process.name(), process.aim().word());
         let strands = cases.iter().flat_map(|case| &case.strands);
         let colours: Vec<[f32; 3]> = strands.flat_map(|strand| &strand.colours).copied().collect();
         let linear = colours.par_iter().map(|rgb| look.develop_linear(rgb.map(f64::from))).collect();

@@ -18,7 +18,7 @@ use clap::Args;
 use onelight::{Process, StockKind, stock, stock_ids};
 
 use self::gpu::Card;
-use super::certify;
+use super::certify::{of_the_readme, with_films};
 use crate::look::LookArguments;
 use crate::progress::{Clock, bar};
 use crate::whole::WholeSet;
@@ -66,18 +66,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
 
 /// The look named; else those of the README, or all.
 fn processes(arguments: &Arguments) -> Result<Vec<Process>> {
-    let base = arguments.look.process()?;
+    let base = arguments.look.chosen()?.process;
     if !arguments.all {
-        return if arguments.look.names_film() { Ok(vec![base]) } else { certify::of_the_readme(&base) };
+        return if arguments.look.names_film() { Ok(vec![base]) } else { of_the_readme(&base) };
     }
     let of_kind = |kind| stock_ids().filter(move |id| stock(id).is_ok_and(|stock| stock.kind() == kind));
-    let process = |camera: &str, print: Option<&str>| {
-        let (camera, print) = (camera.to_owned(), print.map(str::to_owned));
-        Process { camera, print, ..base.clone() }
-    };
+    let process =
+        |camera: &str, print: Option<&str>| with_films(&base, (camera.to_owned(), print.map(str::to_owned)), |_| {});
     let reversal = of_kind(StockKind::Reversal).map(|camera| process(camera, None));
     let negatives = of_kind(StockKind::Negative)
         .flat_map(|camera| of_kind(StockKind::Print).map(move |print| (camera, print)))
         .map(|(camera, print)| process(camera, Some(print)));
-    Ok(reversal.chain(negatives).collect())
+    reversal.chain(negatives).collect()
 }

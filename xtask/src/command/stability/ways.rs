@@ -1,11 +1,11 @@
 //! Every way in which a form can be computed.
 
 use anyhow::Result;
+use onelight::baked::{Baked, BakedForm};
 use onelight::lut::{Channels, PixelMap, Pixels, PixelsMut, Vectors};
 use rayon::prelude::*;
 
 use super::gpu::Card;
-use crate::compiled::Compiled;
 
 /// What computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,12 +42,12 @@ pub(super) struct Way {
 }
 
 /// Float64 first, then the definition in float32, one pixel at a time; then vectors and cards.
-pub(super) fn ways(form: &Compiled, colours: &[[f32; 3]], card: Option<&Card>) -> Result<Vec<Way>> {
-    let mut ways = match form {
-        Compiled::Plain(lut) => on_processor(lut, colours)?,
-        Compiled::Structured(lut) => on_processor(lut.as_ref(), colours)?,
-        Compiled::Direct(direct) => on_processor(direct.as_ref(), colours)?,
-        Compiled::Coded { .. } => anyhow::bail!("a table of coded light is not among the forms measured"),
+pub(super) fn ways(form: &Baked, colours: &[[f32; 3]], card: Option<&Card>) -> Result<Vec<Way>> {
+    let mut ways = match form.form() {
+        BakedForm::Plain(lut) => on_processor(lut, colours)?,
+        BakedForm::Structured(lut) => on_processor(lut.as_ref(), colours)?,
+        BakedForm::Direct(direct) => on_processor(direct.as_ref(), colours)?,
+        BakedForm::Coded { .. } => anyhow::bail!("a table of coded light is not among the forms measured"),
     };
     if let Some(card) = card {
         let (kind, name, coded) = (Kind::Card, card.name().to_owned(), card.develop(form, colours)?);

@@ -1,4 +1,5 @@
 use anyhow::Result;
+use onelight::baked::BakedForm;
 use onelight::film::{PerLayer, Tail};
 use onelight::lut::{DirectForm, DirectParts, DirectPrint};
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
@@ -9,7 +10,6 @@ use serde::Serialize;
 use super::{Colours, Miss};
 use crate::command::report::forms::Kind;
 use crate::command::report::measure::{Look, Prepared};
-use crate::compiled::Compiled;
 
 /// A set of wavelengths, or of exponentials that stand for them.
 #[derive(Debug, Clone, Serialize)]
@@ -31,8 +31,8 @@ pub(super) fn grids(prepared: &Prepared, look: &Look, colours: &Colours) -> Resu
     let fine = prepared.film.direct(&DirectSettings { nodes: Nodes::Grid { step_nm: 1 } })?;
     let mut rows = Vec::new();
     let direct = look.rows.iter().filter(|row| row.kind == Kind::Direct);
-    let forms = prepared.made.iter().filter_map(|made| match &made.form {
-        Compiled::Direct(form) => Some((made, form)),
+    let forms = prepared.made.iter().filter_map(|made| match made.form.form() {
+        BakedForm::Direct(form) => Some((made, form)),
         _ => None,
     });
     for ((made, form), row) in forms.zip(direct) {
@@ -100,12 +100,12 @@ pub(super) fn exposure(prepared: &Prepared, colours: &Colours) -> Result<Vec<Exp
 
 /// Response of each layer to each primary of the process's basis, by the trapezoid rule on every `step_nm`-th wavelength.
 fn sensors(prepared: &Prepared, step_nm: u16) -> Result<Matrix3<f64>> {
-    let basis = Basis::new(prepared.process.reconstruction)?;
+    let basis = Basis::new(prepared.process.film()?.reconstruction)?;
     let visible = SpectralShape::VISIBLE;
     let shape = SpectralShape::new(visible.first_nm() as u16, visible.last_nm() as u16, step_nm)?;
     let weights: Vec<f64> = shape.trapezoid_weights_nm().collect();
     let mut sensors = Matrix3::zeros();
-    for (i, layer) in stock(&prepared.process.camera)?.sensitivity().to_array().into_iter().enumerate() {
+    for (i, layer) in stock(prepared.process.film()?.camera.id())?.sensitivity().to_array().into_iter().enumerate() {
         let sensitivity = layer.on(visible, Tail::LogLinear)?;
         for k in 0..3 {
             let light = basis.reflectance(k).iter().zip(basis.white().values());

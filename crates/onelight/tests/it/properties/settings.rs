@@ -2,8 +2,8 @@
 
 use onelight::printing::Calibration;
 use onelight::{
-    Aim, DyeModel, Filters, HeatGlass, Infrared, Matching, PrinterLight, Process, Projector, Reconstruction, StockKind,
-    Tail, TransferCurve, Word, WorkingSpace, Wratten, stock, stock_ids,
+    Aim, ColourSpaces, DyeModel, FilmProcess, Filters, HeatGlass, Infrared, Matching, PrinterLight, Printing,
+    Projector, Reconstruction, StockKind, Tail, TransferCurve, Word, WorkingSpace, Wratten, stock, stock_ids,
 };
 use proptest::prelude::*;
 
@@ -25,7 +25,7 @@ pub(crate) fn films() -> impl Strategy<Value = (String, Option<String>)> {
 }
 
 /// Settings of the film.
-fn film() -> impl Strategy<Value = Process> {
+fn film() -> impl Strategy<Value = FilmProcess> {
     let spaces = (word::<WorkingSpace>(), word::<WorkingSpace>(), word::<TransferCurve>());
     let numbers = (0.05..3.0, prop_oneof![Just(0.0), -10.0..10.0]);
     let switches = (word::<DyeModel>(), word::<Matching>(), word::<Reconstruction>(), word::<Projector>());
@@ -37,10 +37,10 @@ fn film() -> impl Strategy<Value = Process> {
             (dyes, matching, reconstruction, projector),
             spaces,
         )| {
-            let usual = Process::default();
-            Process {
-                camera,
-                print,
+            let usual = FilmProcess::default();
+            FilmProcess {
+                camera: camera.into(),
+                print: print.as_deref().map(Printing::on),
                 aim,
                 neutral_density: if aim == Aim::Sheet { usual.neutral_density } else { neutral_density },
                 overexposure,
@@ -48,27 +48,23 @@ fn film() -> impl Strategy<Value = Process> {
                 matching,
                 reconstruction,
                 projector,
-                input_space: spaces.0,
-                output_space: spaces.1,
-                output_coding: spaces.2,
-                ..usual
+                spaces: ColourSpaces { input_space: spaces.0, output_space: spaces.1, output_coding: spaces.2 },
             }
         },
     )
 }
 
 /// Settings of the printer, for a look that is printed.
-pub(crate) fn process() -> impl Strategy<Value = Process> {
+pub(crate) fn process() -> impl Strategy<Value = FilmProcess> {
     let filters = prop::sample::subsequence(Wratten::ALL.to_vec(), 2..=4).prop_map(|filters| Filters::of(&filters));
     let parts = (word::<PrinterLight>(), filters, word::<Infrared>(), word::<HeatGlass>(), word::<Tail>());
     let beams = prop::array::uniform3(0.0..4.0);
     let calibration = prop_oneof![3 => Just(Calibration::Exact), 1 => (0_u8..=30).prop_map(Calibration::Iterations)];
     (film(), parts, beams, calibration).prop_map(|(film, parts, beam_density, calibration)| {
-        if film.print.is_none() {
-            return film;
-        }
+        let Some(print) = film.print.clone() else { return film };
         let (light, filters, infrared, glass, red_tail) = parts;
         let filters = if light == PrinterLight::White { Filters::default() } else { filters };
-        Process { light, filters, infrared, glass, red_tail, beam_density, calibration, ..film }
+        let print = Printing { light, filters, infrared, glass, red_tail, beam_density, calibration, ..print };
+        FilmProcess { print: Some(print), ..film }
     })
 }

@@ -2,22 +2,28 @@
 
 use onelight::film::{CharacteristicCurve, Density, LogExposure, Tail};
 use onelight::spectra::TransferCurve;
-use onelight::{Approach, FirstControls, Look, Process, stock};
+use onelight::{
+    ColourSpaces, FirstControls, FirstProcess, Look, Process, ToneMapping, ToneProcess, WorkingSpace, stock,
+};
 
-use crate::{FILMS, chart, differ, process, stated};
+use crate::{FILMS, chart, differ, film, process, stated};
 
-fn look(process: &Process) -> Look {
-    process.look().unwrap()
+fn look(process: impl Into<Process>) -> Look {
+    process.into().look().unwrap()
 }
 
-fn of(approach: Approach) -> Look {
-    look(&Process { approach, ..Process::default() })
+fn tone(mapping: ToneMapping) -> Look {
+    look(ToneProcess { mapping, ..Default::default() })
+}
+
+fn first_of(camera: &str) -> FirstProcess {
+    FirstProcess::for_camera(camera).unwrap()
 }
 
 /// The first approach as the talk writes it, without textures and matrices.
 fn first(camera: &str) -> impl Fn([f64; 3]) -> [f64; 3] {
     let film = stock(camera).unwrap();
-    let print = process(camera).print.map(|id| stock(&id).unwrap());
+    let print = process(camera).print.map(|print| stock(print.film.id()).unwrap());
     let at = |curve: &CharacteristicCurve, d: f64| curve.log_exposure(Density(d)).unwrap().0;
     move |rgb| {
         std::array::from_fn(|i| {
@@ -29,9 +35,9 @@ fn first(camera: &str) -> impl Fn([f64; 3]) -> [f64; 3] {
             let density = match &print {
                 None => curve.density(LogExposure(at(curve, 0.7) + offset)).0,
                 Some(print) => {
-                    let (paper, grey) = (print.characteristic().to_array()[i], film.mid_grey().unwrap().0);
+                    let (print, grey) = (print.characteristic().to_array()[i], film.mid_grey().unwrap().0);
                     let above = curve.density(LogExposure(grey + offset)).0 - curve.density(LogExposure(grey)).0;
-                    paper.density(LogExposure(at(paper, 0.7) - above)).0
+                    print.density(LogExposure(at(print, 0.7) - above)).0
                 }
             };
             10f64.powf(-density)
@@ -43,11 +49,11 @@ fn first(camera: &str) -> impl Fn([f64; 3]) -> [f64; 3] {
 fn the_first_approach_is_the_talks_and_no_simulation() {
     let colours = chart(-2..=2);
     for camera in FILMS {
-        let (plain, approach) = (first(camera), look(&Process { approach: Approach::First, ..process(camera) }));
+        let (plain, approach) = (first(camera), look(first_of(camera)));
         // The texture has 512 texels.
         let texture = differ(&colours, &plain, |rgb| approach.develop_linear(rgb));
         assert!(texture.1 < 0.02, "{camera}: {texture:?}");
-        let film = process(camera).compile().unwrap();
+        let film = film(camera);
         let (mean, max) = differ(&colours, plain, |rgb| film.develop_linear(rgb));
         stated(&format!("{camera}, mean"), mean, 4.9..=6.4);
         stated(&format!("{camera}, max"), max, 14.0..=22.0);
@@ -56,9 +62,7 @@ fn the_first_approach_is_the_talks_and_no_simulation() {
 
 #[test]
 fn the_pre_colour_matrix_of_5207_is_the_published_one() {
-    let Look::First(first) = look(&Process { approach: Approach::First, ..Process::default() }) else {
-        panic!("first")
-    };
+    let Look::First(first) = look(FirstProcess::default()) else { panic!("first") };
     let published = [[0.990, 0.010, 0.000], [0.000, 0.986, 0.014], [0.0, 0.0, 1.0]];
     for (i, row) in published.iter().enumerate() {
         for (k, v) in row.iter().enumerate() {
@@ -71,28 +75,28 @@ fn the_pre_colour_matrix_of_5207_is_the_published_one() {
 fn a_first_approach_keeps_greys_grey_where_its_curves_agree() {
     // Orange is removed and grey pinned: 18 % grey is neutral on every film.
     for camera in FILMS {
-        let approach = look(&Process { approach: Approach::First, ..process(camera) });
+        let approach = look(first_of(camera));
         for v in approach.develop_linear([0.18; 3]) {
             assert!((v - 10f64.powf(-0.7)).abs() < 1e-3, "{camera}: {v}");
         }
-        let darker = look(&Process { approach: Approach::First, neutral_density: 1.0, ..process(camera) });
+        let darker = look(FirstProcess { neutral_density: 1.0, ..first_of(camera) });
         assert!((darker.develop_linear([0.18; 3])[1] - 0.1).abs() < 1e-3, "{camera}");
     }
 }
 
 #[test]
 fn tone_mappings_are_their_formulas_and_lie_far_from_film() {
-    let reinhard = of(Approach::Reinhard);
+    let reinhard = tone(ToneMapping::Reinhard);
     for rgb in [[0.0, 0.18, 1.0], [9.0, 1e6, 0.5]] {
         let out = reinhard.develop_linear(rgb);
         assert!((0..3).all(|i| (out[i] - rgb[i] / (1.0 + rgb[i])).abs() < 1e-9));
     }
     // Luminance tone mapping keeps ratios of channels.
-    let out = of(Approach::ReinhardLuminance).develop_linear([4.0, 2.0, 1.0]);
+    let out = tone(ToneMapping::ReinhardLuminance).develop_linear([4.0, 2.0, 1.0]);
     assert!((out[0] / out[2] - 4.0).abs() < 1e-12 && (out[1] / out[2] - 2.0).abs() < 1e-12);
-    assert_eq!(of(Approach::Clip).develop_linear([0.25, 1.5, -3.0]), [0.25, 1.0, 0.0]);
+    assert_eq!(tone(ToneMapping::Clip).develop_linear([0.25, 1.5, -3.0]), [0.25, 1.0, 0.0]);
     for camera in FILMS {
-        let film = process(camera).compile().unwrap();
+        let film = film(camera);
         // On four stops either side; on two the mean is 6.4 to 8.5.
         let (mean, max) = differ(&chart(-4..=4), |rgb| reinhard.develop_linear(rgb), |rgb| film.develop_linear(rgb));
         stated(&format!("{camera}, Reinhard, mean"), mean, 7.8..=9.6);
@@ -103,17 +107,19 @@ fn tone_mappings_are_their_formulas_and_lie_far_from_film() {
 #[test]
 fn any_input_gives_a_finite_result_in_every_approach() {
     let hard = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, -0.0, 0.0, 1e-320, 0.18, 1e30, f64::MAX];
-    for approach in [Approach::First, Approach::Reinhard, Approach::ReinhardLuminance, Approach::Clip] {
-        for space in [onelight::WorkingSpace::Srgb, onelight::WorkingSpace::AcesCg] {
-            let look = look(&Process { approach, input_space: space, output_space: space, ..Process::default() });
+    let mappings = [ToneMapping::Reinhard, ToneMapping::ReinhardLuminance, ToneMapping::Clip];
+    for mapping in [None].into_iter().chain(mappings.map(Some)) {
+        for space in [WorkingSpace::Srgb, WorkingSpace::AcesCg] {
+            let spaces = ColourSpaces { input_space: space, output_space: space, ..Default::default() };
+            let look = match mapping {
+                None => look(FirstProcess { spaces, ..Default::default() }),
+                Some(mapping) => look(ToneProcess { mapping, spaces }),
+            };
             for r in hard {
                 for g in hard {
                     for b in hard {
                         let out = look.develop([r, g, b]);
-                        assert!(
-                            out.iter().all(|v| v.is_finite() && v.abs() < 4.0),
-                            "{approach:?} {r} {g} {b}: {out:?}"
-                        );
+                        assert!(out.iter().all(|v| v.is_finite() && v.abs() < 4.0), "{mapping:?} {r} {g} {b}: {out:?}");
                     }
                 }
             }
@@ -124,7 +130,7 @@ fn any_input_gives_a_finite_result_in_every_approach() {
 
 #[test]
 fn controls_by_hand_change_what_they_say() {
-    let with = |first: FirstControls| look(&Process { approach: Approach::First, first, ..Process::default() });
+    let with = |controls: FirstControls| look(FirstProcess { controls, ..Default::default() });
     let plain = with(FirstControls::default());
     let colours = chart(-2..=2);
     let size = |controls: FirstControls| {

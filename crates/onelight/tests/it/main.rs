@@ -1,17 +1,26 @@
-//! Every switch has the effect that is stated for it, and that effect is what a second, plain computation gives.
-//!
-//! Colours: the ColorChecker under the white of the scene from -2 to +2 stops; CIEDE2000 from the process without the switch.
+//! Tests of whole looks, in one program so that films are compiled once.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
 
 mod approaches;
+mod baked;
 mod buffers;
+mod derived;
+mod direct;
+mod films;
+mod laws;
 mod oracle;
+mod own_stock;
+mod properties;
+mod stages;
+mod structured;
 mod switches;
 
 use std::ops::RangeInclusive;
 
+use onelight::Reconstruction;
 use onelight::spectra::{Basis, DisplayDifference, RgbSpace, color_checker};
-use onelight::{Process, Reconstruction};
+
+pub(crate) use films::{compiled, film, printed, process};
 
 /// The films of the talk: K-negative, K-reversal (both), F-reversal, F-reversal 2.
 pub(crate) const FILMS: [&str; 5] =
@@ -22,7 +31,7 @@ pub(crate) fn chart(stops: RangeInclusive<i32>) -> Vec<[f64; 3]> {
     let basis = Basis::new(Reconstruction::Smooth).unwrap();
     let patches: Vec<[f64; 3]> = color_checker()
         .iter()
-        .map(|patch| basis.rgb_of(&basis.white().reflected_by(&patch.reflectance)).data.0[0].map(|v| v.max(0.0)))
+        .map(|patch| basis.rgb_of(&basis.white().reflected_by(&patch.reflectance)).map(|v| v.max(0.0)).into())
         .collect();
     stops
         .flat_map(|s| patches.iter().map(move |rgb| rgb.map(|v| v * f64::from(s).exp2())).collect::<Vec<_>>())
@@ -38,10 +47,6 @@ pub(crate) fn differ(
     let difference = DisplayDifference::new(&RgbSpace::SRGB).unwrap();
     let all: Vec<f64> = colours.iter().map(|&rgb| difference.between(a(rgb), b(rgb))).collect();
     (all.iter().sum::<f64>() / all.len() as f64, all.iter().copied().fold(0.0, f64::max))
-}
-
-pub(crate) fn process(camera: &str) -> Process {
-    Process::for_camera(camera).unwrap()
 }
 
 /// Whether a figure lies in a published range, a tenth beside it allowed: the range's own colours are not known exactly.

@@ -1,9 +1,10 @@
 use onelight::spectra::{Kelvin, Observer, SpectralShape, black_body};
-use onelight::{Process, Projector, StructuredSettings};
+use onelight::{FilmProcess, Projector, StructuredSettings};
 use proptest::prelude::*;
 
-use crate::cases;
-use crate::settings::process;
+use super::cases;
+use super::settings::process;
+use crate::{compiled, film, films};
 
 /// Any double, and light as scenes have it.
 fn channel() -> impl Strategy<Value = f64> {
@@ -52,8 +53,8 @@ fn the_film_base_passes_less_than_the_lamp_sends() {
     let lamp = black_body(Kelvin::WHITE, SpectralShape::VISIBLE);
     let scale = 1.0 / Observer::cie_1931().xyz(&lamp).y;
     for camera in ["kodak-5207", "kodak-portra-400", "fuji-velvia-50", "kodak-kodachrome-64"] {
-        let process = Process { projector: Projector::Display, ..Process::for_camera(camera).unwrap() };
-        let base = process.compile().unwrap().stages([1e30; 3]).spectrum;
+        let process = FilmProcess { projector: Projector::Display, ..films::process(camera) };
+        let base = compiled(&process).stages([1e30; 3]).spectrum;
         for (passed, sent) in base.values().iter().zip(lamp.values()) {
             assert!(*passed > 0.0 && *passed <= sent * scale, "{camera}: {passed} of {}", sent * scale);
         }
@@ -64,8 +65,7 @@ fn the_film_base_passes_less_than_the_lamp_sends() {
 fn a_huge_channel_drowns_no_other() {
     // Found as dE 97: sRGB to sRGB was the identity but for 1e-17, which at 1e30 is more than all else.
     for camera in ["kodak-5207", "fuji-velvia-50"] {
-        let film = Process::for_camera(camera).unwrap().compile().unwrap();
-        let direct = film.direct(&Default::default()).unwrap();
+        let (film, direct) = (film(camera), films::direct(&films::process(camera)));
         let structured = film.structured(&StructuredSettings { size: 8, ..Default::default() }).unwrap();
         for (huge, plain) in [
             ([-1e30, -1e30, 0.18], [0.0, 0.0, 0.18]),

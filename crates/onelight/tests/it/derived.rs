@@ -1,5 +1,4 @@
 //! Figures that stand in for what a sheet does not show are made again and compared with the stock files.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
 
 use onelight::film::{Densitometry, DyeDensity, Origin, PerLayer};
 use onelight::printing::Projection;

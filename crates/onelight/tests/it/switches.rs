@@ -1,28 +1,31 @@
-//! Steps 3 to 6: the switches of the second approach.
+//! Steps 3 to 6: the switches of the second approach. Each has the effect that is stated for it, and that effect is what a second,
+//! plain computation gives.
+//!
+//! Colours: the ColorChecker under the white of the scene from -2 to +2 stops; CIEDE2000 from the process without the switch.
 
 use onelight::film::{Density, LogExposure};
 use onelight::spectra::{SpectralShape, xenon_lamp};
 use onelight::{
-    Aim, Calibration, DyeModel, Filters, HeatGlass, Infrared, PrinterLight, Process, Projector, Reconstruction, Stock,
-    Tail, Wratten, stock,
+    Aim, Calibration, DyeModel, FilmProcess, Filters, HeatGlass, Infrared, PrinterLight, Printing, Projector,
+    Reconstruction, Stock, Tail, Wratten, stock,
 };
 
 use crate::oracle::{Curve, Grey, Oracle, layers, planck, visible};
-use crate::{FILMS, chart, differ, process, stated};
+use crate::{FILMS, chart, compiled, differ, film, printed, process, stated};
 
 /// Largest difference between library and oracle, CIEDE2000: the oracle finds its greys by halving.
 const AGREE: f64 = 2e-3;
 
 /// Mean and maximum of what a switch does, by the oracle, once the library agrees with it.
-fn effect(camera: &str, turn: impl Fn(&mut Process), by_hand: impl Fn(&mut Oracle)) -> (f64, f64) {
+fn effect(camera: &str, turn: impl Fn(&mut FilmProcess), by_hand: impl Fn(&mut Oracle)) -> (f64, f64) {
     from(&process(camera), turn, by_hand)
 }
 
-fn from(usual: &Process, turn: impl Fn(&mut Process), by_hand: impl Fn(&mut Oracle)) -> (f64, f64) {
+fn from(usual: &FilmProcess, turn: impl Fn(&mut FilmProcess), by_hand: impl Fn(&mut Oracle)) -> (f64, f64) {
     let colours = chart(-2..=2);
     let mut turned = usual.clone();
     turn(&mut turned);
-    let (usual_film, film) = (usual.compile().unwrap(), turned.compile().unwrap());
+    let (usual_film, film) = (compiled(usual), compiled(&turned));
     let mut plain = Oracle::of(usual, &usual_film);
     if usual.aim == Aim::Sheet {
         plain.grey = Grey::Sheet;
@@ -38,6 +41,11 @@ fn from(usual: &Process, turn: impl Fn(&mut Process), by_hand: impl Fn(&mut Orac
         assert!(agree.1 < AGREE, "{} {what} the switch: library and oracle differ by {}", usual.camera, agree.1);
     }
     differ(&colours, before, after)
+}
+
+/// The same of the printing alone.
+fn print(turn: impl Fn(&mut Printing)) -> impl Fn(&mut FilmProcess) {
+    move |process| turn(process.print.as_mut().unwrap())
 }
 
 fn boxes(k: usize, nm: f64) -> f64 {
@@ -72,16 +80,16 @@ fn reconstruction() {
             });
         };
         // The published matrix has three digits: looser than the rest.
-        let usual = process(camera).compile().unwrap();
+        let usual = film(camera);
         let mut by_hand = Oracle::of(&process(camera), &usual);
         balanced(&mut by_hand);
-        let turned = Process { reconstruction: Reconstruction::BoxesBalanced, ..process(camera) }.compile().unwrap();
+        let turned = compiled(&FilmProcess { reconstruction: Reconstruction::BoxesBalanced, ..process(camera) });
         let by_hand = by_hand.compile().unwrap();
         let colours = chart(-2..=2);
         assert!(differ(&colours, &by_hand, |rgb| turned.develop_linear(rgb)).1 < 0.1, "{camera}");
         let (mean, _) = differ(&colours, by_hand, |rgb| usual.develop_linear(rgb));
         stated(&format!("{camera}, balanced boxes"), mean, 0.8..=1.0);
-        let free = Process { reconstruction: Reconstruction::PseudoInverse, ..process(camera) }.compile().unwrap();
+        let free = compiled(&FilmProcess { reconstruction: Reconstruction::PseudoInverse, ..process(camera) });
         let (mean, _) = differ(&colours, |rgb| free.develop_linear(rgb), |rgb| usual.develop_linear(rgb));
         stated(&format!("{camera}, pseudo-inverse"), mean, 1.7..=2.3);
     }
@@ -109,7 +117,7 @@ fn scaled(film: &Stock, factor: [f64; 3]) -> [Curve; 3] {
 fn literal_dyes() {
     for (aim, range) in [(Aim::Neutral, 0.9..=4.0), (Aim::Sheet, 1.0..=8.0)] {
         for camera in FILMS {
-            let usual = Process { aim, ..process(camera) };
+            let usual = FilmProcess { aim, ..process(camera) };
             let by_hand = |o: &mut Oracle| match &o.print {
                 None => o.film_dye = densities(&o.film),
                 Some(print) => {
@@ -139,18 +147,18 @@ fn matching_constants() {
     let film = stock("kodak-5207").unwrap();
     let clear = film.d_min().unwrap().on(SpectralShape::VISIBLE).unwrap();
     let clear = layers(film.densitometry().density(&clear.transmittance()).map(|Density(d)| d));
-    let usual = process("kodak-5207").compile().unwrap();
+    let usual = crate::film("kodak-5207");
     let mut by_hand = Oracle::of(&process("kodak-5207"), &usual);
     by_hand.film_dye = scaled(&film, std::array::from_fn(|i| c[i] / (mid[i] - clear[i])));
     let by_hand = by_hand.compile().unwrap();
-    let turned = Process { dyes: DyeModel::Constants, ..process("kodak-5207") }.compile().unwrap();
+    let turned = compiled(&FilmProcess { dyes: DyeModel::Constants, ..process("kodak-5207") });
     let colours = chart(-2..=2);
     // The constants have three digits.
     assert!(differ(&colours, &by_hand, |rgb| turned.develop_linear(rgb)).1 < 0.1);
     stated("constants", differ(&colours, by_hand, |rgb| usual.develop_linear(rgb)).0, 0.3..=0.6);
     for camera in ["kodak-5203", "kodak-5213", "kodak-5219", "kodak-5277", "kodak-5248"] {
-        let (usual, turned) = (process(camera), Process { dyes: DyeModel::Constants, ..process(camera) });
-        let (usual, turned) = (usual.compile().unwrap(), turned.compile().unwrap());
+        let (usual, turned) = (process(camera), FilmProcess { dyes: DyeModel::Constants, ..process(camera) });
+        let (usual, turned) = (compiled(&usual), compiled(&turned));
         let (mean, _) = differ(&colours, |rgb| usual.develop_linear(rgb), |rgb| turned.develop_linear(rgb));
         assert!((0.15..0.66).contains(&mean), "{camera}: {mean}");
     }
@@ -160,20 +168,22 @@ fn matching_constants() {
 #[test]
 fn calibration() {
     for (count, low, high) in [(0, 10.0, 25.0), (1, 0.2, 0.5), (2, 0.002, 0.01), (3, 0.0, 0.001)] {
-        let turn = |p: &mut Process| p.calibration = Calibration::Iterations(count);
+        let turn = print(move |p| p.calibration = Calibration::Iterations(count));
         let (mean, _) = effect("kodak-5207", turn, |o| o.iterations = Some(count.into()));
         assert!((low..=high).contains(&mean), "{count} iterations: {mean}");
     }
     // Neutral densities in the beams are taken out by an exact calibration, and make a better start for an early end.
-    let off = |p: &mut Process| p.beam_density = [0.0; 3];
-    assert!(effect("kodak-5207", off, |o| o.beam_density = [0.0; 3]).1 < 1e-6);
-    let once = Process { calibration: Calibration::Iterations(1), ..process("kodak-5207") };
-    let exact = process("kodak-5207").compile().unwrap();
-    let miss = |process: &Process| {
-        let film = process.compile().unwrap();
+    let off = print(|p| p.beam_density = [0.0; 3]);
+    assert!(effect("kodak-5207", &off, |o| o.beam_density = [0.0; 3]).1 < 1e-6);
+    let once = printed("kodak-5207", |p| p.calibration = Calibration::Iterations(1));
+    let exact = film("kodak-5207");
+    let miss = |process: &FilmProcess| {
+        let film = compiled(process);
         differ(&chart(-2..=2), |rgb| film.develop_linear(rgb), |rgb| exact.develop_linear(rgb)).0
     };
-    assert!(miss(&Process { beam_density: [0.0; 3], ..once.clone() }) > 1.5 * miss(&once));
+    let mut without = once.clone();
+    off(&mut without);
+    assert!(miss(&without) > 1.5 * miss(&once));
 }
 
 /// M16: what a grey card becomes.
@@ -181,10 +191,10 @@ fn calibration() {
 fn aims() {
     for camera in FILMS {
         effect(camera, |p| p.aim = Aim::Sheet, |o| o.grey = Grey::Sheet);
-        let end = |p: &mut Process| p.neutral_density = 1.0;
+        let end = |p: &mut FilmProcess| p.neutral_density = 1.0;
         let (mean, _) = effect(camera, end, |o| o.grey = Grey::Density(1.0));
         assert!((5.0..9.0).contains(&mean), "{camera}, density 1.0: {mean}");
-        let film = Process { aim: Aim::Sheet, ..process(camera) }.compile().unwrap();
+        let film = compiled(&FilmProcess { aim: Aim::Sheet, ..process(camera) });
         let [_, y, _] = film.stages([0.18; 3]).xyz;
         let darker = (10f64.powf(-0.7) / y).log2();
         match camera {
@@ -202,7 +212,7 @@ fn aims() {
 /// M18: infrared, its glass, and the tail that makes it matter.
 #[test]
 fn infrared() {
-    let on = |turn: fn(&mut Process), by_hand: fn(&mut Oracle)| effect("kodak-5207", turn, by_hand);
+    let on = |turn: fn(&mut Printing), by_hand: fn(&mut Oracle)| effect("kodak-5207", print(turn), by_hand);
     let off = on(|p| p.infrared = Infrared::Off, |o| o.last_nm = 780);
     assert!(off.1 < 5e-4, "{off:?}");
     let bare = on(|p| p.glass = HeatGlass::None, |o| o.glass = None);
@@ -220,11 +230,12 @@ fn infrared() {
     assert!((2.4..3.1).contains(&cut.1), "{cut:?}");
     // Stated: a light of -56.
     let usual = process("kodak-5207");
-    let mut by_hand = Oracle::of(&usual, &usual.compile().unwrap());
+    let mut by_hand = Oracle::of(&usual, &compiled(&usual));
     (by_hand.held_tail, by_hand.glass) = (true, None);
     let Err(lights) = by_hand.compile().map(|_| ()) else { panic!("the oracle found lights") };
     assert!((lights[0] + 56.0).abs() < 0.5, "{lights}");
-    let error = Process { red_tail: Tail::Held, glass: HeatGlass::None, ..usual }.compile().unwrap_err();
+    let impossible = printed("kodak-5207", |p| (p.red_tail, p.glass) = (Tail::Held, HeatGlass::None));
+    let error = impossible.compile().unwrap_err();
     assert!(error.is_unreachable_aim() && error.to_string().contains("-55.87"), "{error}");
 }
 
@@ -234,22 +245,22 @@ fn printer() {
     let without = |gone: Wratten| {
         let rest: Vec<Wratten> = Wratten::ALL.into_iter().filter(|filter| *filter != gone).collect();
         let filters = Filters::of(&rest);
-        effect("kodak-5207", move |p| p.filters = filters, move |o| o.filters.clone_from(&rest))
+        effect("kodak-5207", print(move |p| p.filters = filters), move |o| o.filters.clone_from(&rest))
     };
     let (blue, ultraviolet) = (without(Wratten::No98), without(Wratten::No2B));
     assert!((0.3..0.6).contains(&blue.0) && (0.02..0.06).contains(&ultraviolet.0), "{blue:?} {ultraviolet:?}");
     // Without the red or the green separation a light would have to be negative.
     for gone in [Wratten::No70, Wratten::No99] {
         let rest: Vec<Wratten> = Wratten::ALL.into_iter().filter(|filter| *filter != gone).collect();
-        let error = Process { filters: Filters::of(&rest), ..process("kodak-5207") }.compile().unwrap_err();
+        let error = printed("kodak-5207", |p| p.filters = Filters::of(&rest)).compile().unwrap_err();
         assert!(error.is_unreachable_aim(), "{error}");
     }
-    let white = effect("kodak-5207", |p| p.light = PrinterLight::White, |o| o.separations = false);
+    let white = effect("kodak-5207", print(|p| p.light = PrinterLight::White), |o| o.separations = false);
     assert!((0.6..1.2).contains(&white.0), "{white:?}");
     // More light, more cyan: red falls.
-    let red = effect("kodak-5207", |p| p.points = [1.0, 0.0, 0.0], |o| o.points = [1.0, 0.0, 0.0]);
+    let red = effect("kodak-5207", print(|p| p.points = [1.0, 0.0, 0.0]), |o| o.points = [1.0, 0.0, 0.0]);
     assert!((0.8..2.0).contains(&red.0), "{red:?}");
-    let film = Process { points: [1.0, 0.0, 0.0], ..process("kodak-5207") }.compile().unwrap();
+    let film = compiled(&printed("kodak-5207", |p| p.points = [1.0, 0.0, 0.0]));
     let [r, g, b] = film.develop_linear([0.18; 3]);
     assert!(r < 0.97 * 0.1995 && (g / 0.1995 - 1.0).abs() < 0.03 && (b / 0.1995 - 1.0).abs() < 0.03, "{r} {g} {b}");
 }
@@ -258,7 +269,7 @@ fn printer() {
 #[test]
 fn separations_keep_chroma() {
     let chroma = |light: PrinterLight| {
-        let film = Process { light, ..process("kodak-5207") }.compile().unwrap();
+        let film = compiled(&printed("kodak-5207", |p| p.light = light));
         let difference = film.difference().unwrap();
         let chart = chart(0..=0);
         let sum: f64 =
@@ -282,8 +293,8 @@ fn projectors() {
         );
         assert!((0.1..0.6).contains(&xenon.0), "{xenon:?}");
     }
-    let film = Process { projector: Projector::TheatreUnadapted, ..process("kodak-5207") }.compile().unwrap();
-    let usual = process("kodak-5207").compile().unwrap();
+    let film = compiled(&FilmProcess { projector: Projector::TheatreUnadapted, ..process("kodak-5207") });
+    let usual = crate::film("kodak-5207");
     let (mean, _) = differ(&chart(-2..=2), |rgb| film.develop_linear(rgb), |rgb| usual.develop_linear(rgb));
     assert!((3.0..5.0).contains(&mean), "{mean}");
     let [r, g, b] = film.develop_linear([0.18; 3]);
@@ -296,11 +307,11 @@ fn overexposure() {
     for (stops, low, high) in [(-2.0, 1.0, 2.5), (-1.0, 0.3, 0.8), (1.0, 0.1, 0.4), (3.0, 0.6, 1.5)] {
         let (mean, _) = effect("kodak-5207", |p| p.overexposure = stops, |o| o.stops = stops);
         assert!((low..=high).contains(&mean), "{stops:+} stops: {mean}");
-        let film = Process { overexposure: stops, ..process("kodak-5207") }.compile().unwrap();
+        let film = compiled(&FilmProcess { overexposure: stops, ..process("kodak-5207") });
         assert!(film.develop_linear([0.18; 3]).iter().all(|v| (v - 10f64.powf(-0.7)).abs() < 1e-6));
     }
-    let brighter = Process { overexposure: 1.0, ..process("fuji-velvia-50") }.compile().unwrap();
-    let usual = process("fuji-velvia-50").compile().unwrap();
+    let brighter = compiled(&FilmProcess { overexposure: 1.0, ..process("fuji-velvia-50") });
+    let usual = film("fuji-velvia-50");
     let (a, b) = (brighter.develop_linear([0.18; 3]), usual.develop_linear([0.36; 3]));
     assert!((0..3).all(|i| (a[i] - b[i]).abs() < 1e-9) && a[1] > 0.3, "{a:?} {b:?}");
 }

@@ -1,9 +1,12 @@
 //! The direct form against the film.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
 
 use onelight::lut::{DirectForm, SceneSampler, Shaper, bake, deviation};
 use onelight::spectra::nalgebra::Vector3;
-use onelight::{Aim, DirectSettings, Nodes, Process, Reference, StockKind, stock, stock_ids};
+use onelight::{
+    Aim, DirectSettings, FilmProcess, Nodes, Printing, Reference, StockKind, WorkingSpace, stock, stock_ids,
+};
+
+use crate::{compiled, film, films, process};
 
 /// Mean and largest difference on colours of all exposures.
 fn measured(film: &Reference, direct: &DirectForm) -> (f64, f64) {
@@ -25,7 +28,7 @@ fn grid(step_nm: usize) -> DirectSettings {
 #[test]
 fn grids_near_the_film_as_they_get_finer() {
     for camera in ["kodak-5207", "fuji-velvia-50"] {
-        let film = Process::for_camera(camera).unwrap().compile().unwrap();
+        let film = film(camera);
         // At 1 nm only curve tables and float32 are left.
         for (step_nm, limit) in [(1, 0.005), (5, 0.02), (10, 0.3), (20, 2.0)] {
             let direct = film.direct(&grid(step_nm)).unwrap();
@@ -38,7 +41,7 @@ fn grids_near_the_film_as_they_get_finer() {
 
 #[test]
 fn steps_that_do_not_fit_are_refused() {
-    let film = Process::default().compile().unwrap();
+    let film = film("kodak-5207");
     for step in [0, 3, 7, 401, usize::MAX] {
         let error = film.direct(&grid(step)).unwrap_err().to_string();
         assert!(error.contains(&format!("found {}", step as f64)) && error.contains("such as 1, 2, 5, 10"), "{error}");
@@ -49,8 +52,8 @@ fn steps_that_do_not_fit_are_refused() {
 fn a_few_exponentials_are_the_film() {
     for camera in ["kodak-5207", "kodak-ektachrome-100", "kodak-kodachrome-64", "fuji-velvia-50", "fuji-provia-100f"] {
         for aim in [Aim::Neutral, Aim::Sheet] {
-            let film = Process { aim, ..Process::for_camera(camera).unwrap() }.compile().unwrap();
-            let (mean, max) = measured(&film, &film.direct(&DirectSettings::default()).unwrap());
+            let process = FilmProcess { aim, ..process(camera) };
+            let (mean, max) = measured(&compiled(&process), &films::direct(&process));
             assert!(mean < 0.02 && max < 0.1, "{camera} {aim:?}: {mean} {max}");
         }
     }
@@ -58,7 +61,7 @@ fn a_few_exponentials_are_the_film() {
 
 #[test]
 fn more_exponentials_come_nearer() {
-    let film = Process::default().compile().unwrap();
+    let film = film("kodak-5207");
     let max = |projection, duplication| {
         let direct = film.direct(&settings(Nodes::Counts { projection, duplication })).unwrap();
         let print = direct.parts().print.as_ref().unwrap();
@@ -75,10 +78,10 @@ fn greys_get_no_darker_with_more_light_on_any_film() {
         of_kind(StockKind::Negative).flat_map(|camera| of_kind(StockKind::Print).map(move |p| (camera, Some(p))));
     let mut all = 0;
     for (camera, print) in of_kind(StockKind::Reversal).map(|camera| (camera, None)).chain(pairs) {
-        let print = print.map(str::to_owned);
-        let film = Process { camera: camera.to_owned(), print, ..Process::default() }.compile().unwrap();
+        let print = print.map(Printing::on);
+        let film = compiled(&FilmProcess { camera: camera.into(), print, ..Default::default() });
         let direct = film.direct(&settings(Nodes::Counts { projection: 8, duplication: 4 })).unwrap();
-        let to_y = Process::default().output_space.space().to_xyz().unwrap().row(1).into_owned();
+        let to_y = WorkingSpace::Srgb.space().to_xyz().unwrap().row(1).into_owned();
         let luminance = |i: i32| {
             let coded = direct.apply([0.18 * 2f32.powf(i as f32 / 10.0); 3]);
             (to_y * Vector3::from(coded.map(|v| film.coding().decode(f64::from(v))))).x
@@ -96,7 +99,7 @@ fn greys_get_no_darker_with_more_light_on_any_film() {
 #[test]
 fn a_limit_is_kept_with_few_exponentials() {
     for (camera, terms) in [("kodak-5207", 10), ("fuji-velvia-50", 7)] {
-        let film = Process::for_camera(camera).unwrap().compile().unwrap();
+        let film = film(camera);
         let direct = film.direct(&settings(Nodes::UnderMaxDe(0.5))).unwrap();
         let found = direct.parts().projection.terms().len()
             + direct.parts().print.as_ref().map_or(0, |print| print.exposure.terms().len());
@@ -108,7 +111,7 @@ fn a_limit_is_kept_with_few_exponentials() {
 #[test]
 fn tables_are_baked_near_the_film() {
     for camera in ["kodak-5207", "kodak-5203", "fuji-velvia-50"] {
-        let film = Process::for_camera(camera).unwrap().compile().unwrap();
+        let film = film(camera);
         let shaper = Shaper::log2(0.01, 184.0).unwrap();
         let at = |t: [f64; 3]| t.map(|t| shaper.decode(t));
         let (fast, exact) = (film.bake(9, at).unwrap(), bake(9, &shaper, |rgb| film.develop(rgb), |_| {}).unwrap());
@@ -120,7 +123,7 @@ fn tables_are_baked_near_the_film() {
             assert!(miss < 0.06, "{camera}: {exact:?} {fast:?} {miss}");
         }
     }
-    let film = Process::default().compile().unwrap();
+    let film = film("kodak-5207");
     assert!(film.bake(1, |t| t).is_err());
     // Light that no shaper yields has a result too.
     let hard = film.bake(2, |t| t.map(|t| if t == 0.0 { f64::NAN } else { f64::INFINITY })).unwrap();
@@ -130,7 +133,7 @@ fn tables_are_baked_near_the_film() {
 
 #[test]
 fn threads_do_not_matter() {
-    let film = Process::default().compile().unwrap();
+    let film = film("kodak-5207");
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| film.direct(&settings(Nodes::Counts { projection: 6, duplication: 3 })).unwrap())
@@ -140,7 +143,7 @@ fn threads_do_not_matter() {
 
 #[test]
 fn settings_are_checked() {
-    let film = Process::default().compile().unwrap();
+    let film = film("kodak-5207");
     let message = |nodes| film.direct(&settings(nodes)).unwrap_err().to_string();
     for found in [0, 1, 17, usize::MAX] {
         let projection = message(Nodes::Counts { projection: found, duplication: 4 });
@@ -151,7 +154,7 @@ fn settings_are_checked() {
         assert!(message(Nodes::UnderMaxDe(found)).contains("above 0"), "{found}");
     }
     // A reversal film has no duplication to fit.
-    let velvia = Process::for_camera("fuji-velvia-50").unwrap().compile().unwrap();
+    let velvia = crate::film("fuji-velvia-50");
     assert!(velvia.direct(&settings(Nodes::Counts { projection: 4, duplication: 0 })).is_ok());
 }
 
@@ -159,9 +162,8 @@ fn settings_are_checked() {
 fn any_light_has_a_finite_result() {
     let hard = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, -0.0, 0.0, 1e-40, 1e-12, 0.18, 1e30, f32::MAX];
     for camera in ["kodak-5207", "fuji-velvia-50"] {
-        let film = Process::for_camera(camera).unwrap().compile().unwrap();
+        let (film, direct) = (film(camera), films::direct(&process(camera)));
         let difference = film.difference().unwrap();
-        let direct = film.direct(&DirectSettings::default()).unwrap();
         for r in hard {
             for g in hard {
                 for b in hard {

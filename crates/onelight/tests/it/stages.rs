@@ -1,8 +1,9 @@
 //! Stage values against an independent computation of the model in float64 at 1 nm (fixtures/reference/stages.json).
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
 
-use onelight::{Aim, DyeModel, Process, Reference};
+use onelight::{Aim, DyeModel, FilmProcess};
 use serde_json::Value;
+
+use crate::{compiled, process};
 
 /// Largest difference of display colours, CIEDE2000.
 const DISPLAY_TOLERANCE: f64 = 0.05;
@@ -19,8 +20,8 @@ fn close(what: &str, ours: [f64; 3], theirs: [f64; 3], tolerance: f64) {
     }
 }
 
-fn compare(name: &str, process: &Process, expected: &Value, inputs: &[[f64; 3]]) {
-    let film: Reference = process.compile().unwrap();
+fn compare(name: &str, process: &FilmProcess, expected: &Value, inputs: &[[f64; 3]]) {
+    let film = compiled(process);
     for (i, row) in rows(&expected["exposure_matrix_K"]).into_iter().enumerate() {
         let ours: Vec<f64> = film.exposure_matrix().matrix().row(i).iter().copied().collect();
         for k in 0..3 {
@@ -36,9 +37,9 @@ fn compare(name: &str, process: &Process, expected: &Value, inputs: &[[f64; 3]])
         };
         check("camera_log10_exposure", stages.exposure.map(|h| h.0).to_array());
         check("camera_dye_amounts", stages.amounts.map(|a| a.0).to_array());
-        if let Some((exposure, amounts)) = stages.print {
-            check("print_log10_exposure", exposure.map(|h| h.0).to_array());
-            check("print_dye_amounts", amounts.map(|a| a.0).to_array());
+        if let Some(print) = stages.print {
+            check("print_log10_exposure", print.exposure.map(|h| h.0).to_array());
+            check("print_dye_amounts", print.amounts.map(|a| a.0).to_array());
         }
         let theirs = rows(&expected["rgb_linear"])[i];
         let miss = difference.between(stages.linear, theirs);
@@ -58,12 +59,12 @@ fn four_processes_agree_stage_by_stage() {
     };
     let all: Value = serde_json::from_str(&text).unwrap();
     let inputs = rows(&all["input_rgb"]);
-    let negative = Process::default();
-    let velvia = Process::for_camera("fuji-velvia-50").unwrap();
+    let negative = FilmProcess::default();
+    let velvia = process("fuji-velvia-50");
     compare("K-negative", &negative, &all["K-negative/wedge/neutral"], &inputs);
     compare("F-reversal", &velvia, &all["F-reversal/wedge/neutral"], &inputs);
-    let sheet = Process { aim: Aim::Sheet, ..negative.clone() };
+    let sheet = FilmProcess { aim: Aim::Sheet, ..negative.clone() };
     compare("K-negative, sheet", &sheet, &all["K-negative/wedge/sheet"], &inputs);
-    let literal = Process { dyes: DyeModel::Literal, ..negative };
+    let literal = FilmProcess { dyes: DyeModel::Literal, ..negative };
     compare("K-negative, literal", &literal, &all["K-negative/literal/neutral"], &inputs);
 }

@@ -1,5 +1,4 @@
 //! Laws that hold for every process.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
 
 use onelight::film::{AmountCurve, DyeAmount, LogExposure, PerLayer};
 use onelight::printing::{
@@ -7,18 +6,19 @@ use onelight::printing::{
 };
 use onelight::spectra::{RgbSpace, SpectralShape};
 use onelight::{
-    Aim, DyeModel, HeatGlass, Infrared, Matching, Process, Projector, Reference, StockKind, Tail, WorkingSpace, stock,
-    stock_ids,
+    Aim, ColourSpaces, DyeModel, FilmProcess, HeatGlass, Infrared, Matching, Printing, Process, Projector, Reference,
+    StockKind, Tail, WorkingSpace, stock, stock_ids,
 };
 
+use crate::{compiled, film, process};
+
 /// Every camera film, negatives on every print.
-fn sensible() -> Vec<Process> {
+fn sensible() -> Vec<FilmProcess> {
     let of_kind = |kind| stock_ids().filter(move |id| stock(id).unwrap().kind() == kind);
-    let mut all: Vec<Process> = of_kind(StockKind::Reversal).map(|id| Process::for_camera(id).unwrap()).collect();
+    let mut all: Vec<FilmProcess> = of_kind(StockKind::Reversal).map(process).collect();
     for camera in of_kind(StockKind::Negative) {
         for print in of_kind(StockKind::Print) {
-            let (camera, print) = (camera.to_owned(), Some(print.to_owned()));
-            all.push(Process { camera, print, ..Process::default() });
+            all.push(FilmProcess { camera: camera.into(), print: Some(Printing::on(print)), ..Default::default() });
         }
     }
     assert_eq!(all.len(), 4 + 11 * 5);
@@ -30,10 +30,9 @@ fn grey_is_grey_in_neutral_aim() {
     for process in sensible() {
         for dyes in [DyeModel::Wedge, DyeModel::Literal] {
             // Every pair can be calibrated, in the talk's literal reading too.
-            let film = (Process { dyes, ..process.clone() }).compile();
-            let film = film.unwrap_or_else(|error| panic!("{} {dyes:?}: {error}", process.name()));
+            let film = compiled(&FilmProcess { dyes, ..process.clone() });
             for v in film.develop_linear([0.18; 3]) {
-                assert!((v - 10f64.powf(-NEUTRAL_DENSITY)).abs() < 1e-6, "{} {dyes:?}: {v}", process.name());
+                assert!((v - 10f64.powf(-NEUTRAL_DENSITY)).abs() < 1e-6, "{} {dyes:?}: {v}", film.name());
             }
         }
     }
@@ -42,13 +41,13 @@ fn grey_is_grey_in_neutral_aim() {
 #[test]
 fn grey_has_the_published_densities_in_sheet_aim() {
     for process in sensible().into_iter().filter(|p| p.print.is_some()) {
-        let film = Process { aim: Aim::Sheet, ..process.clone() }.compile().unwrap();
-        let print = stock(process.print.as_deref().unwrap()).unwrap();
-        let (_, amounts) = film.stages([0.18; 3]).print.unwrap();
+        let film = compiled(&FilmProcess { aim: Aim::Sheet, ..process.clone() });
+        let print = stock(process.print.unwrap().film.id()).unwrap();
+        let amounts = film.stages([0.18; 3]).print.unwrap().amounts;
         let grey = print.dyes_on(SpectralShape::VISIBLE).unwrap().density(amounts).transmittance();
         let (aim, _) = print.aim().unwrap();
         for (read, aim) in print.densitometry().density(&grey).to_array().into_iter().zip(aim.to_array()) {
-            assert!((read.0 - aim.0).abs() < 2e-3, "{}: {read:?} for {aim:?}", process.name());
+            assert!((read.0 - aim.0).abs() < 2e-3, "{}: {read:?} for {aim:?}", film.name());
         }
     }
 }
@@ -58,14 +57,14 @@ fn luminance_never_falls_with_exposure() {
     let y = RgbSpace::SRGB.to_xyz().unwrap();
     for process in sensible() {
         for aim in [Aim::Neutral, Aim::Sheet] {
-            let film = Process { aim, ..process.clone() }.compile().unwrap();
+            let film = compiled(&FilmProcess { aim, ..process.clone() });
             let wedge = (-150..=150).map(|i| 0.18 * 2f64.powf(f64::from(i) / 10.0));
             let luminance: Vec<f64> = wedge
                 .map(|v| (y * onelight::spectra::nalgebra::Vector3::from(film.develop_linear([v; 3]))).y)
                 .collect();
             // A hair of rounding where the curves are flat.
             let falls = luminance.windows(2).position(|p| p[1] < p[0] - 1e-12);
-            assert_eq!(falls, None, "{} {aim:?}", process.name());
+            assert_eq!(falls, None, "{} {aim:?}", film.name());
         }
     }
 }
@@ -87,8 +86,8 @@ fn largest_hue_step(film: &Reference, stops: i32) -> f64 {
 
 #[test]
 fn a_wide_gamut_steps_hardly_more_than_srgb_around_the_hue_circle() {
-    let film = |input_space| Process { input_space, ..Process::default() }.compile().unwrap();
-    let (srgb, wide) = (film(WorkingSpace::Srgb), film(WorkingSpace::Rec2020));
+    let spaces = ColourSpaces { input_space: WorkingSpace::Rec2020, ..Default::default() };
+    let (srgb, wide) = (film("kodak-5207"), compiled(&FilmProcess { spaces, ..Default::default() }));
     // Published with the model for 5207 on 2383, two digits.
     for (stops, published) in [(0, 0.66), (2, 2.5), (4, 5.8), (6, 10.6)] {
         let own = largest_hue_step(&srgb, stops);
@@ -103,7 +102,8 @@ fn any_input_gives_a_finite_result() {
     let hard = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, -0.0, 0.0, 1e-320, 1e-12, 0.18, 1e30, f64::MAX];
     for input_space in [WorkingSpace::Srgb, WorkingSpace::AcesCg] {
         for camera in ["kodak-5207", "fuji-velvia-50"] {
-            let film = Process { input_space, ..Process::for_camera(camera).unwrap() }.compile().unwrap();
+            let spaces = ColourSpaces { input_space, ..Default::default() };
+            let film = compiled(&FilmProcess { spaces, ..process(camera) });
             for r in hard {
                 for g in hard {
                     for b in hard {
@@ -128,13 +128,13 @@ fn bench(printer: Printer) -> Bench {
     let (negative, print) = (stock("kodak-5207").unwrap(), stock("kodak-2383").unwrap());
     let mid_grey = PerLayer::all(negative.mid_grey().unwrap());
     let camera = DyeModel::Wedge.amounts(&negative, mid_grey).unwrap();
-    let paper = DyeModel::Wedge.amounts(&print, print_mid_grey(&print).unwrap()).unwrap();
+    let printed = DyeModel::Wedge.amounts(&print, print_mid_grey(&print).unwrap()).unwrap();
     let dyes = print.dyes_on(SpectralShape::VISIBLE).unwrap();
     let projection = Projection::new(dyes, Projector::Display, &RgbSpace::SRGB).unwrap();
     Bench {
         duplication: Duplication::new(&negative, &print, printer).unwrap(),
         grey: camera.as_ref().zip_map(mid_grey, AmountCurve::amount),
-        target: print_target(Aim::Neutral, EquivalentNeutralDensity::default(), &print, paper.as_ref(), &projection)
+        target: print_target(Aim::Neutral, EquivalentNeutralDensity::default(), &print, printed.as_ref(), &projection)
             .unwrap(),
     }
 }
@@ -174,12 +174,11 @@ fn infrared_matters_only_with_a_held_tail() {
 
 #[test]
 fn absolute_matching_needs_absolute_figures() {
-    let absolute = |camera: &str| Process { matching: Matching::Absolute, ..Process::for_camera(camera).unwrap() };
+    let absolute = |camera: &str| FilmProcess { matching: Matching::Absolute, ..process(camera) };
     assert!(absolute("kodak-5207").compile().unwrap_err().to_string().contains("relative"));
     assert!(absolute("kodak-5248").compile().unwrap_err().to_string().contains("criterion"));
     // Sheets agree with themselves to some tenths: near the balanced film, but not on it.
-    let film = absolute("kodak-portra-160").compile().unwrap();
-    let balanced = Process::for_camera("kodak-portra-160").unwrap().compile().unwrap();
+    let (film, balanced) = (compiled(&absolute("kodak-portra-160")), film("kodak-portra-160"));
     let (a, b) = (film.stages([0.18; 3]).exposure, balanced.stages([0.18; 3]).exposure);
     let off = a.zip_map(b, |a, b| a.0 - b.0).to_array();
     assert!(off.iter().all(|d| d.abs() < 0.4) && off.iter().any(|d| d.abs() > 0.01), "{off:?}");
@@ -188,7 +187,7 @@ fn absolute_matching_needs_absolute_figures() {
 #[test]
 fn contradictions_are_named() {
     let message = |camera: &str, print: Option<&str>| {
-        let process = Process { camera: camera.into(), print: print.map(Into::into), ..Process::default() };
+        let process = FilmProcess { camera: camera.into(), print: print.map(Printing::on), ..Default::default() };
         let error = process.compile().unwrap_err();
         assert!(error.is_contradiction() || error.is_unknown_stock());
         error.to_string()

@@ -1,9 +1,11 @@
 //! The structured form against the exact film.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
-
 use onelight::lut::{Interpolation, Lut3d, SceneSampler, Storage, deviation};
-use onelight::{Entries, Process, Reference, StructuredSettings, TableCoding, TransferCurve, WorkingSpace};
+use onelight::{
+    ColourSpaces, Entries, FilmProcess, Reference, StructuredSettings, TableCoding, TransferCurve, WorkingSpace,
+};
+
+use crate::{compiled, film};
 
 /// Mean and largest difference over all exposures, colours that no fit has seen.
 fn measured(film: &Reference, settings: &StructuredSettings, storage: Storage) -> (f64, f64) {
@@ -19,7 +21,7 @@ fn measured(film: &Reference, settings: &StructuredSettings, storage: Storage) -
 #[test]
 fn small_tables_come_near_the_film() {
     for camera in ["kodak-5207", "fuji-velvia-50"] {
-        let film = Process::for_camera(camera).unwrap().compile().unwrap();
+        let film = film(camera);
         let settings = StructuredSettings { size: 16, ..StructuredSettings::default() };
         // What the prototypes of this form reached: 0.11 and 0.9.
         let (mean, max) = measured(&film, &settings, Storage::F16);
@@ -29,7 +31,7 @@ fn small_tables_come_near_the_film() {
 
 #[test]
 fn fitting_wins_on_colours_it_has_not_seen() {
-    let film = Process::default().compile().unwrap();
+    let film = film("kodak-5207");
     let of = |entries| {
         measured(&film, &StructuredSettings { size: 12, entries, ..StructuredSettings::default() }, Storage::F32)
     };
@@ -39,7 +41,7 @@ fn fitting_wins_on_colours_it_has_not_seen() {
 
 #[test]
 fn display_coding_wins_in_few_bits_and_loses_in_many() {
-    let film = Process::default().compile().unwrap();
+    let film = film("kodak-5207");
     let of = |coding, storage| {
         measured(&film, &StructuredSettings { size: 16, coding, ..StructuredSettings::default() }, storage).0
     };
@@ -54,13 +56,13 @@ fn every_space_and_coding_is_followed() {
         (WorkingSpace::Srgb, WorkingSpace::Rec2020, TransferCurve::Gamma24),
         (WorkingSpace::P3, WorkingSpace::P3, TransferCurve::Linear),
     ] {
-        let process = Process { input_space, output_space, output_coding, ..Process::default() };
-        let film = process.compile().unwrap();
+        let spaces = ColourSpaces { input_space, output_space, output_coding };
+        let film = compiled(&FilmProcess { spaces, ..Default::default() });
         let lut = film.structured(&StructuredSettings::default()).unwrap();
         for rgb in [[0.18; 3], [0.5, 0.2, 0.1], [0.02, 0.3, 0.9], [6.0, 4.0, 3.0]] {
             let (exact, read) = (film.develop(rgb), lut.apply(rgb.map(|v| v as f32)));
             for c in 0..3 {
-                assert!((exact[c] - f64::from(read[c])).abs() < 2e-3, "{process:?} {rgb:?}: {read:?} for {exact:?}");
+                assert!((exact[c] - f64::from(read[c])).abs() < 2e-3, "{spaces:?} {rgb:?}: {read:?} for {exact:?}");
             }
         }
     }
@@ -69,7 +71,7 @@ fn every_space_and_coding_is_followed() {
 #[test]
 fn hard_inputs_give_what_the_film_gives() {
     for camera in ["kodak-5207", "kodak-ektachrome-100"] {
-        let film = Process::for_camera(camera).unwrap().compile().unwrap();
+        let film = film(camera);
         let lut = film.structured(&StructuredSettings::default()).unwrap();
         let difference = film.difference().unwrap();
         let hard = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, 0.0, 1e-40, 0.18, 65504.0, 1e30, f32::MAX];
@@ -89,7 +91,7 @@ fn hard_inputs_give_what_the_film_gives() {
 
 #[test]
 fn sizes_are_checked_before_memory_is_taken() {
-    let film = Process::default().compile().unwrap();
+    let film = film("kodak-5207");
     for size in [0, 1, Lut3d::MAX_SIZE + 1, usize::MAX] {
         assert!(film.structured(&StructuredSettings { size, ..StructuredSettings::default() }).is_err(), "{size}");
     }

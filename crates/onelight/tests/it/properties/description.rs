@@ -1,14 +1,14 @@
 //! Descriptions of looks: any text is read or refused, and what is read compiles or says why it does not.
 
 use onelight::{
-    Aim, Approach, DyeModel, HeatGlass, Infrared, Matching, PrinterLight, Process, Projector, Reconstruction, Tail,
-    TransferCurve, Word, WorkingSpace,
+    Aim, Approach, DyeModel, HeatGlass, Infrared, Matching, PrinterLight, Process, ProcessKeys, Projector,
+    Reconstruction, Tail, TransferCurve, Word, WorkingSpace,
 };
 use proptest::prelude::*;
 
-use crate::calibration::is_a_sentence;
-use crate::cases;
-use crate::settings::films;
+use super::calibration::is_a_sentence;
+use super::cases;
+use super::settings::films;
 
 /// Words of a choice, quoted.
 fn words<T: Word>() -> BoxedStrategy<String> {
@@ -137,18 +137,19 @@ fn description() -> impl Strategy<Value = String> {
 
 /// Reads, compiles and uses a description as far as it goes.
 fn goes_as_far_as_it_can(text: &str) -> Result<Reached, TestCaseError> {
-    let process = match Process::from_toml("look.toml", text) {
-        Ok(process) => process,
+    let keys = match ProcessKeys::from_toml("look.toml", text) {
+        Ok(keys) => keys,
         Err(error) => {
             is_a_sentence(&error.to_string())?;
             return Ok(Reached::Text);
         }
     };
-    let look = match process.look() {
-        Ok(look) => look,
+    let made = keys.process().and_then(|process| Ok((process.look()?, process)));
+    let (look, process) = match made {
+        Ok(made) => made,
         Err(error) => {
             is_a_sentence(&error.to_string())?;
-            return Ok(Reached::Process);
+            return Ok(Reached::Keys);
         }
     };
     // What compiles holds no NaN, so that it is what is read again.
@@ -163,7 +164,7 @@ fn goes_as_far_as_it_can(text: &str) -> Result<Reached, TestCaseError> {
 #[derive(Debug, PartialEq)]
 enum Reached {
     Text,
-    Process,
+    Keys,
     Look,
 }
 
@@ -197,7 +198,7 @@ fn descriptions_reach_every_end() {
     let mut runner = proptest::test_runner::TestRunner::deterministic();
     let texts: Vec<String> = (0..150).map(|_| description().new_tree(&mut runner).unwrap().current()).collect();
     let reached: Vec<Reached> = texts.iter().map(|text| goes_as_far_as_it_can(text).unwrap()).collect();
-    for end in [Reached::Text, Reached::Process, Reached::Look] {
+    for end in [Reached::Text, Reached::Keys, Reached::Look] {
         let count = reached.iter().filter(|found| **found == end).count();
         assert!(count >= 5, "{end:?}: {count} of {}", reached.len());
     }

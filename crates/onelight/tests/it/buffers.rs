@@ -3,7 +3,7 @@
 use onelight::Reference;
 use onelight::spectra::BufferFormat;
 
-use crate::process;
+use crate::film;
 
 /// All values of a small float, from the definition of its bits.
 fn floats(mantissa_bits: i32, bias: i32, exponents: i32) -> Vec<f64> {
@@ -42,7 +42,7 @@ fn by_library(film: &Reference, format: BufferFormat, scale: f64) -> f64 {
 
 #[test]
 fn the_scale_factor_buys_what_is_stated() {
-    let film = process("kodak-5207").compile().unwrap();
+    let film = film("kodak-5207");
     let unorm: Vec<f64> = (0..=255).map(|i| f64::from(i) / 255.0).collect();
     let (float10, half) = (floats(7, 3, 8), floats(10, 15, 31));
     // Stated: 5.6, 0.8, 0.22, 0.06, on a ramp of steps of its own.

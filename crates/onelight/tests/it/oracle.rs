@@ -4,7 +4,7 @@
 use onelight::film::{DyeDensity, LogExposure, PerLayer, SpectralSensitivity, Tail};
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Kelvin, Observer, SpectralShape, planck_radiance};
-use onelight::{Process, Reference, Stock, Wratten, stock};
+use onelight::{FilmProcess, Reference, Stock, Wratten, stock};
 
 pub(crate) type Curve = Box<dyn Fn(f64) -> f64>;
 
@@ -75,7 +75,7 @@ pub(crate) fn layers<T>(of: PerLayer<T>) -> [T; 3] {
 
 impl Oracle {
     /// The default process of a camera film; the dyes are those of `reference`.
-    pub(crate) fn of(process: &Process, reference: &Reference) -> Self {
+    pub(crate) fn of(process: &FilmProcess, reference: &Reference) -> Self {
         let curve = |curve: &onelight::film::AmountCurve| -> Curve {
             let curve = curve.clone();
             Box::new(move |h| curve.amount(LogExposure(h)).0)
@@ -87,8 +87,8 @@ impl Oracle {
             basis.spectrum(rgb).values().to_vec()
         };
         Self {
-            film: stock(&process.camera).unwrap(),
-            print: process.print.as_deref().map(|id| stock(id).unwrap()),
+            film: stock(process.camera.id()).unwrap(),
+            print: process.print.as_ref().map(|print| stock(print.film.id()).unwrap()),
             lights: [light(0), light(1), light(2)],
             film_dye: layers(reference.camera_curves()).map(curve),
             print_dye: reference.print_curves().map(|curves| layers(curves).map(curve)),
@@ -235,7 +235,7 @@ impl Oracle {
         let rows = self.screen_rows(layers(film.dyes()));
         let lamp = xyz(&self.projector);
         let to_rgb = rgb_from_xyz(&if self.adapted { lamp } else { xyz(&planck(6500.0)) }) / lamp.y;
-        move |amounts| (to_rgb * Vector3::from(through(&rows, amounts))).data.0[0]
+        move |amounts| (to_rgb * Vector3::from(through(&rows, amounts))).into()
     }
 
     fn screen_rows(&self, dyes: [&DyeDensity; 3]) -> Vec<([f64; 3], [f64; 3])> {
@@ -252,7 +252,7 @@ impl Oracle {
     fn neutral(&self, film: &Stock, density: f64) -> [f64; 3] {
         let rows = self.screen_rows(layers(film.dyes()));
         let target = xyz(&self.projector) * 10f64.powf(-density);
-        let light = |a: &Vector3<f64>| Vector3::from(through(&rows, a.data.0[0])).component_div(&target).map(f64::ln);
+        let light = |a: &Vector3<f64>| Vector3::from(through(&rows, (*a).into())).component_div(&target).map(f64::ln);
         let mut a = Vector3::repeat(density);
         for _ in 0..50 {
             let slope = Matrix3::from_fn(|i, k| {
@@ -261,7 +261,7 @@ impl Oracle {
             });
             a -= slope.try_inverse().unwrap() * light(&a);
         }
-        a.data.0[0]
+        a.into()
     }
 }
 
