@@ -1,6 +1,11 @@
 use std::fmt;
 
 /// What went wrong: one sentence that says what, where, what was found and what was expected.
+///
+/// ```
+/// let error = onelight::Process::for_camera("kodak-5270").unwrap_err();
+/// assert!(error.is_unknown_stock() && error.to_string().contains("the nearest is kodak-5"));
+/// ```
 #[derive(Debug)]
 pub struct Error(Kind);
 
@@ -101,10 +106,10 @@ impl fmt::Display for Error {
             Kind::Word { what, found, expected } => write!(f, "{what}: found {found:?}, expected {expected}"),
             Kind::Setting { what, found, expected } => write!(f, "{what}: found {found}, expected {expected}"),
             Kind::UnknownStock { found, nearest: Some(nearest) } => {
-                write!(f, "no stock is called {found:?}; the nearest is {nearest} (`cargo xtask stocks` lists all)")
+                write!(f, "no stock is called {found:?}; the nearest is {nearest}")
             }
             Kind::UnknownStock { found, nearest: None } => {
-                write!(f, "no stock is called {found:?} (`cargo xtask stocks` lists all)")
+                write!(f, "no stock is called {found:?}, expected a maker and a number, such as kodak-5207")
             }
             Kind::Contradiction(sentence) | Kind::Unreachable(sentence) => f.write_str(sentence),
         }
