@@ -4,7 +4,6 @@ mod buffers;
 mod certificate;
 mod command;
 mod compiled;
-mod direct_file;
 mod export;
 mod exposure;
 mod folders;

@@ -1,17 +1,15 @@
 mod build;
 mod op;
 mod read;
-#[cfg(test)]
-mod tests;
 mod write;
 
-use super::text::printable;
+use crate::text::{one_line, printable};
 use op::Op;
 
 /// A file of the Common LUT Format \[S2014-006\], version 3: operations that one colour passes in turn.
 ///
 /// It holds a structured LUT whole, so a program that reads CLF needs nothing beside it. Written are, for a
-/// [`crate::StructuredLut`]:
+/// [`onelight_lut::StructuredLut`]:
 ///
 /// | Step | Operations |
 /// |---|---|
@@ -23,14 +21,16 @@ use op::Op;
 ///
 /// All numbers are 32-bit floats to the program that reads them (`32f`). The first range lets no infinity reach a
 /// matrix, where it would become NaN; NaN in a colour reads as the lower end of that range. With an input matrix that is
-/// -1e30, whose effect on the other channels differs from [`crate::StructuredLut`], where NaN counts as 0.
+/// -1e30, whose effect on the other channels differs from [`onelight_lut::StructuredLut`], where NaN counts as 0.
 ///
 /// Reading takes the operations `Matrix`, `Range`, `Log`, `Exponent`, `LUT1D` and `LUT3D` in any order and of every style,
 /// in floating-point depths. `ASC_CDL`, integer depths, half-float domains and raw halfs are refused by name. What is read
 /// is the list of operations, which [`ClfProcess::apply`] evaluates.
 ///
 /// ```
-/// # use onelight_lut::{ClfProcess, Interpolation, Lut3d, PlainLut, Shaper};
+/// use onelight_formats::ClfProcess;
+/// use onelight_lut::{Interpolation, Lut3d, PlainLut, Shaper};
+///
 /// let lut = PlainLut::new(Shaper::log2(0.02, 4.0)?, Lut3d::identity(5)?, Interpolation::Tetrahedral);
 /// let mut file = Vec::new();
 /// ClfProcess::from_plain(&lut)?.with_name("log").write(&mut file)?;
@@ -38,7 +38,7 @@ use op::Op;
 /// let back = ClfProcess::read(file.as_slice())?;
 /// let [found, expected] = [back.apply([0.18; 3])[0], lut.apply([0.18; 3])[0]];
 /// assert!((found - expected).abs() < 1e-6);
-/// # Ok::<(), onelight_lut::Error>(())
+/// # Ok::<(), onelight_formats::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClfProcess {
@@ -62,7 +62,7 @@ impl ClfProcess {
     /// The same operations under a name, which is also the file's `id`.
     #[must_use]
     pub fn with_name(mut self, name: &str) -> Self {
-        self.name = printable(name).replace('\n', " ").trim().to_owned();
+        self.name = one_line(name).trim().to_owned();
         self
     }
 

@@ -1,14 +1,14 @@
 mod read;
-#[cfg(test)]
-mod tests;
 mod write;
 
-use crate::domain::Domain;
+use onelight_lut::{Domain, Interpolation, Lut1d, Lut3d, PlainLut};
+
 use crate::error::{Error, Kind};
-use crate::form::plain::PlainLut;
-use crate::interpolate::Interpolation;
-use crate::lut1d::Lut1d;
-use crate::lut3d::Lut3d;
+use crate::text::one_line;
+
+/// The most bytes of a title or comment that are written, so that lines stay within the 250 bytes of the
+/// format's specification \[AdobeCube2013\].
+const TEXT_BYTES: usize = 200;
 
 /// What a `.cube` file holds: a 1D table, a 3D table, or a 1D table that leads into a 3D one.
 ///
@@ -22,10 +22,12 @@ use crate::lut3d::Lut3d;
 /// hold them, and a file read back equals the one written, bit for bit.
 ///
 /// ```
-/// # use onelight_lut::{CubeFile, Interpolation};
+/// use onelight_formats::CubeFile;
+/// use onelight_lut::Interpolation;
+///
 /// let file = CubeFile::parse("LUT_1D_SIZE 2\nDOMAIN_MAX 2 2 2\n0 0 0\n1 1 0.5\n")?;
 /// assert_eq!(file.apply([1.0, 3.0, 1.0], Interpolation::Tetrahedral), [0.5, 1.0, 0.25]);
-/// # Ok::<(), onelight_lut::Error>(())
+/// # Ok::<(), onelight_formats::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct CubeFile {
@@ -54,7 +56,7 @@ impl CubeFile {
     /// The most bytes that all comments of a file that is read may have.
     pub const MAX_COMMENT_BYTES: usize = 1 << 20;
 
-    /// A file with a 1D table only.
+    /// A file with one curve for each channel and no 3D table.
     pub fn from_1d(lut: Lut1d) -> Self {
         Self::with_tables(Some(lut), None)
     }
@@ -84,6 +86,22 @@ impl CubeFile {
     /// # Errors
     ///
     /// If `shaper_points` is out of bounds (see [`Lut1d`]).
+    ///
+    /// ```
+    /// use onelight_formats::CubeFile;
+    /// use onelight_lut::{Interpolation, PlainLut, Shaper, bake};
+    ///
+    /// let shaper = Shaper::log2(0.02, 4.0)?;
+    /// let table = bake(17, &shaper, |rgb| rgb.map(|v| v / (v + 0.18)), |_nodes_done| {})?;
+    /// let lut = PlainLut::new(shaper, table, Interpolation::Tetrahedral);
+    /// let mut file = Vec::new();
+    /// CubeFile::from_plain(&lut, CubeFile::SHAPER_POINTS)?
+    ///     .with_title("toy")
+    ///     .with_comments(["input: scene-linear, 1 is diffuse white"])
+    ///     .write(&mut file)?;
+    /// assert!(file.starts_with(b"# TITLE \"toy\"\n"));
+    /// # Ok::<(), onelight_formats::Error>(())
+    /// ```
     pub fn from_plain(lut: &PlainLut, shaper_points: usize) -> Result<Self, Error> {
         let shaper = lut.shaper();
         let table = Lut1d::sample(shaper_points, [0.0, shaper.max()], |u| shaper.encode(u))?;
@@ -94,10 +112,11 @@ impl CubeFile {
     ///
     /// Other programs read one short line between double quotes, so control characters become spaces, double
     /// quotes single ones, surrounding space goes, and what exceeds 200 bytes is cut off.
+    #[must_use]
     pub fn with_title(mut self, title: &str) -> Self {
-        let title: String = printable(title).replace('"', "'");
+        let title = one_line(title).replace('"', "'");
         let title = title.trim();
-        self.title = title[..floor_boundary(title, write::TEXT_BYTES)].trim_end().to_owned();
+        self.title = title[..floor_boundary(title, TEXT_BYTES)].trim_end().to_owned();
         self
     }
 
@@ -105,14 +124,15 @@ impl CubeFile {
     ///
     /// A text with line ends becomes as many comments, one beyond 200 bytes is split, other control characters
     /// become spaces.
+    #[must_use]
     pub fn with_comments<S: AsRef<str>>(mut self, comments: impl IntoIterator<Item = S>) -> Self {
         self.comments.clear();
         for text in comments {
             for line in text.as_ref().split('\n') {
-                let line = printable(line);
+                let line = one_line(line);
                 let mut rest = line.trim_end();
-                while rest.len() > write::TEXT_BYTES {
-                    let (head, tail) = rest.split_at(floor_boundary(rest, write::TEXT_BYTES));
+                while rest.len() > TEXT_BYTES {
+                    let (head, tail) = rest.split_at(floor_boundary(rest, TEXT_BYTES));
                     self.comments.push(head.trim_end().to_owned());
                     rest = tail;
                 }
@@ -137,12 +157,12 @@ impl CubeFile {
         self.lut1d.as_ref()
     }
 
-    /// The 3D table.
+    /// The 3D table, which reads what the 1D table gave where there is one.
     pub fn lut3d(&self) -> Option<&Lut3d> {
         self.lut3d.as_ref().map(|(_, lut)| lut)
     }
 
-    /// The inputs of the 3D table.
+    /// The values that the coordinates 0 and 1 of the 3D table stand for.
     pub fn domain3d(&self) -> Option<&Domain> {
         self.lut3d.as_ref().map(|(domain, _)| domain)
     }
@@ -164,10 +184,6 @@ impl CubeFile {
     fn with_tables(lut1d: Option<Lut1d>, lut3d: Option<(Domain, Lut3d)>) -> Self {
         Self { title: String::new(), comments: Vec::new(), lut1d, lut3d }
     }
-}
-
-fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
 /// The most bytes, up to `limit`, that end between two characters.

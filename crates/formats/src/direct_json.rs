@@ -1,12 +1,36 @@
-//! `look.direct.json`: a direct form as bare numbers, with its equations, for shaders and other programs.
+//! The JSON of a direct form, `look.direct.json`: its numbers and equations as text, for engines, shaders and other programs.
+//!
+//! | Key | What it holds |
+//! |---|---|
+//! | `format`, `version` | `"onelight direct form"` and 1 |
+//! | `comments`, `equations` | lines for people; a reader passes over them |
+//! | `input_max`, `log_floor` | [`onelight_lut::INPUT_MAX`] and [`onelight_lut::LOG_FLOOR`] |
+//! | `input`, `exposure` | 3x3 matrices, a row for each output |
+//! | `curves` | `from` and `to` (log2 of exposure, a number for each channel), `entries` at equal steps between them |
+//! | `print` | `null`, or `exposure` (terms) and `curves` of a second film |
+//! | `projection` | terms, each with `rate` and `weight` for three channels |
+//! | `coding` | `exponent` and `offset` of a [`PowerCoding`] |
+//!
+//! What each number means is written down at [`DirectForm`] and in the file itself, under `equations`.
 
-use anyhow::{Context, Result, bail};
-use onelight::lut::{
+mod layout;
+mod limited;
+
+use std::io::{Read, Write};
+
+use onelight_lut::{
     DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, INPUT_MAX, LOG_FLOOR, Lut1d,
     PowerCoding, Rows,
 };
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+
+use crate::error::{Error, Kind, TextProblem};
+use crate::text::{foreign_message, quoted, read_text};
+use limited::Limited;
+
+/// The most bytes of a file that are read, 256 MiB: the largest curves take half as many.
+pub const MAX_BYTES: u64 = 1 << 28;
 
 /// What a reader needs to know, line by line.
 const EQUATIONS: [&str; 9] = [
@@ -24,29 +48,45 @@ const EQUATIONS: [&str; 9] = [
 const FORMAT: &str = "onelight direct form";
 const VERSION: u32 = 1;
 
+/// The two numbers that every file repeats and none may change.
+const CONSTANTS_EXPECTED: &str = "the numbers of version 1, input_max 1e30 and log_floor 1e-12";
+
+type Entries = Limited<[f32; 3], { Lut1d::MAX_SIZE }>;
+type Terms = Limited<Term, { ExponentialSum::MAX_TERMS }>;
+
+/// The two keys that say whether the others can be read.
 #[derive(Deserialize)]
-struct File {
+struct Head {
     format: String,
-    version: u32,
+    version: u64,
+}
+
+/// The keys that decide what the form does.
+#[derive(Deserialize)]
+struct Body {
+    input_max: Option<f32>,
+    log_floor: Option<f32>,
     input: Rows,
     exposure: Rows,
     curves: Curves,
     print: Option<Print>,
-    projection: Vec<Term>,
+    projection: Terms,
     coding: Coding,
 }
 
+// Keys are written in the order of the alphabet, below the first level, whatever maps of `serde_json` keep.
+
 #[derive(Serialize, Deserialize)]
 struct Print {
-    exposure: Vec<Term>,
     curves: Curves,
+    exposure: Terms,
 }
 
 #[derive(Serialize, Deserialize)]
 struct Curves {
+    entries: Entries,
     from: [f32; 3],
     to: [f32; 3],
-    entries: Vec<[f32; 3]>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -61,12 +101,42 @@ struct Coding {
     offset: f64,
 }
 
-/// The file's bytes: JSON, a triple of numbers a line.
-pub(crate) fn write(direct: &DirectForm, comments: &[String]) -> Result<Vec<u8>> {
-    let parts = direct.parts();
+/// Writes a direct form as JSON, a triple of numbers a line, with the comments as a list of lines.
+///
+/// Every number is the shortest decimal that reads back as the same number.
+///
+/// # Errors
+///
+/// If the writer fails.
+///
+/// ```
+/// use onelight_formats::direct_json;
+/// # use onelight_lut::{DirectForm, DirectParts, Domain, ExponentialSum, ExponentialTerm, Lut1d, PowerCoding};
+/// # let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// # let term = ExponentialTerm { rate: [0.5; 3], weight: [1.0; 3] };
+/// # let form = DirectForm::new(DirectParts {
+/// #     input: identity,
+/// #     exposure: identity,
+/// #     curves: Lut1d::sample(64, [-8.0, 4.0], |h| 4.0 - h)?,
+/// #     print: None,
+/// #     projection: ExponentialSum::new(vec![term])?,
+/// #     coding: PowerCoding::new(2.4, 0.055)?,
+/// # })?;
+/// let mut file = Vec::new();
+/// direct_json::write(&mut file, &form, ["input: scene-linear, 1 is diffuse white"])?;
+/// assert_eq!(direct_json::read(file.as_slice())?, form);
+/// # Ok::<(), onelight_formats::Error>(())
+/// ```
+pub fn write<S: AsRef<str>>(
+    mut writer: impl Write,
+    form: &DirectForm,
+    comments: impl IntoIterator<Item = S>,
+) -> Result<(), Error> {
+    let parts = form.parts();
     let print = parts.print.as_ref();
     let print = print.map(|print| Print { exposure: terms(&print.exposure), curves: Curves::of(&print.curves) });
     let coding = Coding { exponent: parts.coding.exponent(), offset: parts.coding.offset() };
+    let comments: Vec<Value> = comments.into_iter().map(|line| Value::from(line.as_ref())).collect();
     let fields = [
         ("format", Value::from(FORMAT)),
         ("version", Value::from(VERSION)),
@@ -74,184 +144,115 @@ pub(crate) fn write(direct: &DirectForm, comments: &[String]) -> Result<Vec<u8>>
         ("equations", Value::from(EQUATIONS.to_vec())),
         ("input_max", Value::from(INPUT_MAX)),
         ("log_floor", Value::from(LOG_FLOOR)),
-        ("input", serde_json::to_value(parts.input)?),
-        ("exposure", serde_json::to_value(parts.exposure)?),
-        ("curves", serde_json::to_value(Curves::of(&parts.curves))?),
-        ("print", serde_json::to_value(print)?),
-        ("projection", serde_json::to_value(terms(&parts.projection))?),
-        ("coding", serde_json::to_value(coding)?),
+        ("input", value(&parts.input)?),
+        ("exposure", value(&parts.exposure)?),
+        ("curves", value(&Curves::of(&parts.curves))?),
+        ("print", value(&print)?),
+        ("projection", value(&terms(&parts.projection))?),
+        ("coding", value(&coding)?),
     ];
-    let mut text = String::new();
-    block(['{', '}'], fields.iter().map(|(key, item)| (Some(*key), item)), 0, &mut text);
-    text.push('\n');
-    Ok(text.into_bytes())
+    writer.write_all(layout::object(&fields).as_bytes())?;
+    writer.flush()?;
+    Ok(())
 }
 
-/// The form that a file holds.
-pub(crate) fn read(bytes: &[u8]) -> Result<DirectForm> {
-    let file: File = serde_json::from_slice(bytes).context("look.direct.json")?;
-    if (file.format.as_str(), file.version) != (FORMAT, VERSION) {
-        bail!("look.direct.json: found {} {}, expected {FORMAT} {VERSION}", file.format, file.version);
+/// Reads the file of a direct form, to its end, of at most [`MAX_BYTES`].
+///
+/// # Errors
+///
+/// If the input fails or is too large, or as [`parse`].
+///
+/// ```
+/// let error = onelight_formats::direct_json::read(&b"{\"format\": \"PNG\"}"[..]).unwrap_err();
+/// assert!(error.is_text());
+/// ```
+pub fn read(input: impl Read) -> Result<DirectForm, Error> {
+    parse(&read_text(input, MAX_BYTES)?)
+}
+
+/// [`read`] from text.
+///
+/// # Errors
+///
+/// If the text is no JSON, names another format or version, lacks a key, repeats one or has a value of another shape, more
+/// entries than a [`Lut1d`] or more terms than an [`ExponentialSum`] may have; or if a number is out of the bounds of the part
+/// it belongs to, which the message names.
+///
+/// ```
+/// let error = onelight_formats::direct_json::parse("{\"format\": \"onelight direct form\", \"version\": 2}").unwrap_err();
+/// assert_eq!(
+///     error.to_string(),
+///     "kind of file: found \"onelight direct form\" version 2, expected \"onelight direct form\" version 1"
+/// );
+/// ```
+pub fn parse(text: &str) -> Result<DirectForm, Error> {
+    let head: Head = serde_json::from_str(text).map_err(|error| refused(&error))?;
+    if head.format != FORMAT || head.version != u64::from(VERSION) {
+        let found = format!("{:?} version {}", quoted(&head.format), head.version);
+        return Err(unexpected("kind of file", found, "\"onelight direct form\" version 1"));
     }
-    let print = file.print.map(|print| -> Result<DirectPrint> {
-        Ok(DirectPrint { exposure: sum(&print.exposure)?, curves: print.curves.table()? })
+    let body: Body = serde_json::from_str(text).map_err(|error| refused(&error))?;
+    for (what, found, constant) in [("input_max", body.input_max, INPUT_MAX), ("log_floor", body.log_floor, LOG_FLOOR)]
+    {
+        if let Some(found) = found.filter(|&found| found != constant) {
+            return Err(unexpected(what, found.to_string(), CONSTANTS_EXPECTED));
+        }
+    }
+    let print = body.print.map(|print| -> Result<DirectPrint, Error> {
+        let exposure = sum("exposure of the print", &print.exposure)?;
+        Ok(DirectPrint { exposure, curves: print.curves.table("curves of the print")? })
     });
-    let coding = match (file.coding.exponent, file.coding.offset) {
-        (1.0, 0.0) => PowerCoding::LINEAR,
-        (exponent, offset) => PowerCoding::new(exponent, offset)?,
-    };
-    Ok(DirectForm::new(DirectParts {
-        input: file.input,
-        exposure: file.exposure,
-        curves: file.curves.table()?,
+    let Coding { exponent, offset } = body.coding;
+    let parts = DirectParts {
+        input: body.input,
+        exposure: body.exposure,
+        curves: body.curves.table("curves")?,
         print: print.transpose()?,
-        projection: sum(&file.projection)?,
-        coding,
-    })?)
+        projection: sum("projection", &body.projection)?,
+        coding: PowerCoding::new(exponent, offset).map_err(|error| of_part("coding", error))?,
+    };
+    DirectForm::new(parts).map_err(|error| of_part("matrices", error))
 }
 
 impl Curves {
     fn of(table: &Lut1d) -> Self {
-        Self { from: table.domain().min(), to: table.domain().max(), entries: table.entries().to_vec() }
+        Self { from: table.domain().min(), to: table.domain().max(), entries: Limited(table.entries().to_vec()) }
     }
 
-    fn table(self) -> Result<Lut1d> {
-        Ok(Lut1d::new(Domain::new(self.from, self.to)?, self.entries)?)
-    }
-}
-
-fn terms(sum: &ExponentialSum) -> Vec<Term> {
-    sum.terms().iter().map(|term| Term { rate: term.rate, weight: term.weight }).collect()
-}
-
-fn sum(terms: &[Term]) -> Result<ExponentialSum> {
-    let terms = terms.iter().map(|term| ExponentialTerm { rate: term.rate, weight: term.weight });
-    Ok(ExponentialSum::new(terms.collect())?)
-}
-
-/// JSON in which a list of numbers stays on one line.
-fn lay_out(value: &Value, indent: usize, text: &mut String) {
-    match value {
-        Value::Object(map) => {
-            block(['{', '}'], map.iter().map(|(key, item)| (Some(key.as_str()), item)), indent, text);
-        }
-        Value::Array(items) if !items.iter().all(Value::is_number) => {
-            block(['[', ']'], items.iter().map(|item| (None, item)), indent, text);
-        }
-        Value::Array(items) => {
-            let numbers: Vec<String> = items.iter().map(number).collect();
-            text.push_str(&format!("[{}]", numbers.join(", ")));
-        }
-        _ => text.push_str(&number(value)),
+    fn table(self, part: &'static str) -> Result<Lut1d, Error> {
+        let domain = Domain::new(self.from, self.to);
+        domain.and_then(|domain| Lut1d::new(domain, self.entries.0)).map_err(|error| of_part(part, error))
     }
 }
 
-fn block<'a>(
-    [open, close]: [char; 2],
-    items: impl Iterator<Item = (Option<&'a str>, &'a Value)>,
-    indent: usize,
-    text: &mut String,
-) {
-    let new_line = |text: &mut String, indent: usize| {
-        text.push('\n');
-        text.extend(std::iter::repeat_n(' ', indent));
-    };
-    text.push(open);
-    for (i, (key, item)) in items.enumerate() {
-        if i > 0 {
-            text.push(',');
-        }
-        new_line(text, indent + 1);
-        if let Some(key) = key {
-            text.push_str(&format!("\"{key}\": "));
-        }
-        lay_out(item, indent + 1, text);
-    }
-    new_line(text, indent);
-    text.push(close);
+fn terms(sum: &ExponentialSum) -> Terms {
+    Limited(sum.terms().iter().map(|term| Term { rate: term.rate, weight: term.weight }).collect())
 }
 
-/// A value that is no list or object; what came from a 32-bit float has no more digits than one needs.
-fn number(value: &Value) -> String {
-    match value.as_f64() {
-        Some(v) if value.is_f64() && f64::from(v as f32) == v => format!("{:?}", v as f32),
-        _ => value.to_string(),
-    }
+fn sum(part: &'static str, terms: &Terms) -> Result<ExponentialSum, Error> {
+    let terms = terms.0.iter().map(|term| ExponentialTerm { rate: term.rate, weight: term.weight });
+    ExponentialSum::new(terms.collect()).map_err(|error| of_part(part, error))
 }
 
-#[cfg(test)]
-mod tests {
-    use onelight::{DirectSettings, Nodes, Process};
+fn of_part(part: &'static str, error: onelight_lut::Error) -> Error {
+    Kind::Table { part: Some(part), error }.into()
+}
 
-    use super::*;
+/// A key of the file with a value for which this reader was not made.
+fn unexpected(what: &'static str, found: String, expected: &'static str) -> Error {
+    Kind::Key { what, found, expected }.into()
+}
 
-    #[test]
-    fn a_file_holds_every_bit_of_its_form() {
-        for process in [Process::default(), Process::for_camera("fuji-velvia-50").unwrap()] {
-            for output_coding in [onelight::TransferCurve::Srgb, onelight::TransferCurve::Linear] {
-                let film = Process { output_coding, ..process.clone() }.compile().unwrap();
-                let nodes = Nodes::Grid { step_nm: 20 };
-                let direct = film.direct(&DirectSettings { nodes }).unwrap();
-                let bytes = write(&direct, &["a look".to_owned()]).unwrap();
-                assert!(read(&bytes).unwrap() == direct);
-                assert_eq!(bytes, write(&direct, &["a look".to_owned()]).unwrap());
-            }
-        }
-    }
+/// What the JSON reader says, with its line.
+fn refused(error: &serde_json::Error) -> Error {
+    let message = error.to_string();
+    // It says the line once more at the end.
+    let place = format!(" at line {} column {}", error.line(), error.column());
+    let found = foreign_message(message.strip_suffix(&place).unwrap_or(&message));
+    Error::text(error.line().max(1), TextProblem::Json { found })
+}
 
-    #[test]
-    fn what_is_no_such_file_is_refused() {
-        let film = Process::for_camera("fuji-velvia-50").unwrap().compile().unwrap();
-        let direct = film.direct(&DirectSettings { nodes: Nodes::Grid { step_nm: 20 } }).unwrap();
-        let text = String::from_utf8(write(&direct, &[]).unwrap()).unwrap();
-        let refused = |text: &str| format!("{:#}", read(text.as_bytes()).unwrap_err());
-        assert!(refused("").contains("look.direct.json"));
-        assert!(refused(&text.replace("\"version\": 1", "\"version\": 2")).contains("expected onelight direct form 1"));
-        assert!(refused(&text.replace("\"exponent\": 2.4", "\"exponent\": 0.1")).contains("exponent of a coding"));
-        assert!(refused(&text.replace("\"projection\"", "\"projektion\"")).contains("projection"));
-    }
-
-    #[test]
-    fn the_equations_are_those_of_the_form() {
-        let film = Process::default().compile().unwrap();
-        let direct = film.direct(&DirectSettings { nodes: Nodes::Grid { step_nm: 20 } }).unwrap();
-        let file: File = serde_json::from_slice(&write(&direct, &[]).unwrap()).unwrap();
-        let sum = |terms: &[Term], x: [f64; 3]| -> [f64; 3] {
-            std::array::from_fn(|j| {
-                let passed = |t: &Term| (-(0..3).map(|k| f64::from(t.rate[k]) * x[k]).sum::<f64>()).exp2();
-                terms.iter().map(|t| f64::from(t.weight[j]) * passed(t)).sum()
-            })
-        };
-        let curve = |c: &Curves, e: [f64; 3]| -> [f64; 3] {
-            std::array::from_fn(|j| {
-                let [from, to] = [c.from[j], c.to[j]].map(f64::from);
-                let h = e[j].max(f64::from(LOG_FLOOR)).log2();
-                let last = c.entries.len() - 1;
-                let at = ((h - from) / (to - from)).clamp(0.0, 1.0) * last as f64;
-                let i = (at as usize).min(last - 1);
-                let [a, b] = [c.entries[i][j], c.entries[i + 1][j]].map(f64::from);
-                a + (at - i as f64) * (b - a)
-            })
-        };
-        let multiply = |rows: &Rows, v: [f64; 3]| rows.map(|row| (0..3).map(|k| f64::from(row[k]) * v[k]).sum::<f64>());
-        let Coding { exponent, offset } = file.coding;
-        let end = (offset / (exponent - 1.0) * exponent / (1.0 + offset)).powf(exponent);
-        let slope = offset / (exponent - 1.0) / end;
-        let code = |v: f64| {
-            let size = v.abs();
-            let coded = if size <= end { slope * size } else { (1.0 + offset) * size.powf(1.0 / exponent) - offset };
-            coded.copysign(v)
-        };
-        for rgb in [[0.18; 3], [0.0, 0.0, 0.0], [4.0, 0.2, 0.01], [0.001, 0.0, 30.0], [-1.0, 2.0, 0.5]] {
-            let scene = multiply(&file.input, rgb).map(|v| v.clamp(0.0, f64::from(INPUT_MAX)));
-            let dye = curve(&file.curves, multiply(&file.exposure, scene));
-            let print = file.print.as_ref().unwrap();
-            let dye = curve(&print.curves, sum(&print.exposure, dye));
-            let out = sum(&file.projection, dye).map(code);
-            let ours = direct.apply(rgb.map(|v| v as f32));
-            for (a, b) in out.into_iter().zip(ours) {
-                assert!((a - f64::from(b)).abs() < 2e-5, "{rgb:?}: {out:?} {ours:?}");
-            }
-        }
-    }
+/// Numbers as JSON; of finite ones, as the parts of a form are, nothing is refused.
+fn value(of: &impl Serialize) -> Result<Value, Error> {
+    serde_json::to_value(of).map_err(|error| std::io::Error::from(error).into())
 }

@@ -1,15 +1,23 @@
+//! KTX2: a table as a 3D texture for shaders.
+
 use std::io::Write;
 
 use half::f16;
 
+use onelight_lut::Lut3d;
+
 use crate::error::{Error, Kind};
-use crate::lut3d::{Lut3d, node_of};
+use crate::node_order::node_at;
+use crate::text::printable;
 
 /// The first bytes of every file.
 const IDENTIFIER: [u8; 12] = *b"\xabKTX 20\xbb\r\n\x1a\n";
 
 /// `VK_FORMAT_R16G16B16A16_SFLOAT`.
 const FORMAT: u32 = 97;
+
+/// The program that a file names as its writer: the name under which the first files were written.
+const WRITER: &str = concat!("onelight-lut ", env!("CARGO_PKG_VERSION"));
 
 /// Bytes of a channel, and of a texel.
 const CHANNEL_BYTES: u32 = 2;
@@ -22,24 +30,33 @@ const LEVEL_INDEX_BYTES: u32 = 24;
 /// Writes a table as a KTX2 3D texture of four halfs a texel (`rgba16float`), without mip levels or compression.
 ///
 /// Red runs along x, green along y, blue along z; alpha is 1. Node 0 and the last lie at texel centres, so a shader reads the
-/// texture at [`crate::texel_centre`]. What the numbers mean is the caller's affair; the file calls them linear, so that nothing
+/// texture at [`onelight_lut::texel_centre`]. What the numbers mean is the caller's affair; the file calls them linear, so that nothing
 /// decodes them. The comments go into the file's metadata under the key `comment`.
 ///
 /// # Errors
 ///
-/// If an entry is not finite as a half (beyond ±65504), or the writer fails.
-pub fn write_ktx2<S: AsRef<str>>(
+/// If an entry is not finite as a half (beyond ±65504), the comments have more than 16 MiB, or the writer fails.
+///
+/// ```
+/// let table = onelight_lut::Lut3d::identity(32)?;
+/// let mut file = Vec::new();
+/// onelight_formats::ktx2::write(&mut file, &table, ["scene-linear in, sRGB out"])?;
+/// assert!(file.starts_with(b"\xabKTX 20\xbb"));
+/// # Ok::<(), onelight_formats::Error>(())
+/// ```
+pub fn write<S: AsRef<str>>(
     mut writer: impl Write,
     table: &Lut3d,
     comments: impl IntoIterator<Item = S>,
 ) -> Result<(), Error> {
     let size = table.size();
-    let too_large = |entry: &[f32; 3]| entry.iter().any(|&v| !f16::from_f32(v).is_finite());
-    if let Some(index) = table.entries().iter().position(too_large) {
-        let found = table.entries().get(index).copied().unwrap_or_default();
-        return Err(Kind::Half { node: node_of(index, size), found }.into());
+    let too_large = |entry: [f32; 3]| entry.iter().any(|&v| !f16::from_f32(v).is_finite());
+    for (index, &found) in table.entries().iter().enumerate() {
+        if too_large(found) {
+            return Err(Kind::Half { node: node_at(index, size), found }.into());
+        }
     }
-    let comments: Vec<String> = comments.into_iter().map(|text| super::text::printable(text.as_ref())).collect();
+    let comments: Vec<String> = comments.into_iter().map(|text| printable(text.as_ref())).collect();
     let mut file = header(size as u32, table.entries().len(), &comments.join("\n"))?;
     let one = f16::ONE.to_le_bytes();
     for [r, g, b] in table.entries() {
@@ -61,7 +78,7 @@ pub fn write_ktx2<S: AsRef<str>>(
 fn header(size: u32, texels: usize, comment: &str) -> Result<Vec<u8>, Error> {
     let descriptor = descriptor();
     let mut metadata = Vec::new();
-    key_value(&mut metadata, "KTXwriter", concat!("onelight-lut ", env!("CARGO_PKG_VERSION")))?;
+    key_value(&mut metadata, "KTXwriter", WRITER)?;
     if !comment.is_empty() {
         key_value(&mut metadata, "comment", comment)?;
     }
@@ -139,75 +156,5 @@ fn length(bytes: usize) -> Result<u32, Error> {
     if bytes <= MAX {
         return Ok(bytes as u32);
     }
-    Err(Kind::Parameter { what: "bytes of comments", found: bytes as f64, expected: "at most 16777216" }.into())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use ::ktx2::{Format, Reader};
-
-    fn bent(size: usize) -> Lut3d {
-        let entries = Lut3d::identity(size).unwrap().entries().to_vec();
-        Lut3d::new(size, entries.into_iter().map(|[x, y, z]| [x * x - 0.2, 40.0 * y, 1e-6 + z]).collect()).unwrap()
-    }
-
-    fn file(table: &Lut3d, comments: &[&str]) -> Vec<u8> {
-        let mut file = Vec::new();
-        write_ktx2(&mut file, table, comments).unwrap();
-        file
-    }
-
-    #[test]
-    fn an_independent_reader_finds_the_table() {
-        for (size, comments) in [(2, &[][..]), (3, &["x"]), (32, &["max dE 0.3", "\u{3b4}"]), (33, &["four"])] {
-            let table = bent(size);
-            let file = file(&table, comments);
-            let reader = Reader::new(&file).unwrap();
-            let header = reader.header();
-            assert_eq!(header.format, Some(Format::R16G16B16A16_SFLOAT));
-            assert_eq!([header.pixel_width, header.pixel_height, header.pixel_depth], [size as u32; 3]);
-            assert_eq!([header.type_size, header.layer_count, header.face_count, header.level_count], [2, 0, 1, 1]);
-            assert!(header.supercompression_scheme.is_none());
-            assert!(reader.writer().unwrap().starts_with("onelight-lut "));
-            let pairs: Vec<_> = reader.key_value_data().collect();
-            assert_eq!(pairs.len(), if comments.is_empty() { 1 } else { 2 });
-            let levels: Vec<_> = reader.levels().collect();
-            assert_eq!(levels.len(), 1);
-            let (texels, rest) = levels[0].data.as_chunks::<8>();
-            assert_eq!((texels.len(), rest.len()), (size.pow(3), 0));
-            assert_eq!((levels[0].data.as_ptr() as usize - file.as_ptr() as usize) % 8, 0);
-            for (texel, entry) in texels.iter().zip(table.entries()) {
-                let (halfs, _) = texel.as_chunks::<2>();
-                let values: Vec<_> = halfs.iter().map(|&half| f16::from_le_bytes(half)).collect();
-                let [r, g, b] = entry.map(f16::from_f32);
-                assert_eq!(values, [r, g, b, f16::ONE]);
-            }
-        }
-    }
-
-    #[test]
-    fn the_descriptor_is_that_of_four_halfs() {
-        let file = file(&bent(2), &[]);
-        let reader = Reader::new(&file).unwrap();
-        let basic = reader.basic_dfd().unwrap();
-        assert_eq!(basic.bytes_planes, [8, 0, 0, 0, 0, 0, 0, 0]);
-        assert_eq!(basic.color_model, Some(::ktx2::ColorModel::RGBSDA));
-        assert_eq!(basic.transfer_function, Some(::ktx2::TransferFunction::Linear));
-        let samples: Vec<_> = basic.sample_information.iter().collect();
-        assert_eq!(samples.len(), 4);
-        for (i, sample) in samples.iter().enumerate() {
-            assert_eq!(sample.bit_offset, 16 * i as u16);
-            assert_eq!(sample.bit_length.get(), 16);
-            assert_eq!([sample.lower, sample.upper], [(-1.0_f32).to_bits(), 1.0_f32.to_bits()]);
-        }
-    }
-
-    #[test]
-    fn what_is_no_half_is_refused() {
-        let mut entries = vec![[0.5; 3]; 8];
-        entries[6][2] = 7e4;
-        let error = write_ktx2(Vec::new(), &Lut3d::new(2, entries).unwrap(), [""; 0]).unwrap_err();
-        assert!(error.to_string().contains("node [0, 1, 1]"), "{error}");
-    }
+    Err(Kind::CommentBytes { found: bytes, max: MAX }.into())
 }

@@ -1,9 +1,9 @@
 use std::io::{Cursor, Read, Write};
 
-use ::png::{BitDepth, ColorType, Decoder, DecodingError, Encoder, EncodingError, Limits, Transformations};
+use png::{BitDepth, ColorType, Decoder, DecodingError, Encoder, EncodingError, Limits, Transformations};
 
-use super::text::printable;
 use crate::error::{Error, Kind};
+use crate::text::{foreign_message, printable};
 
 /// The most bytes of a PNG file that are read.
 const MAX_BYTES: u64 = 1 << 28;
@@ -14,7 +14,20 @@ const WORKING_BYTES: usize = 1 << 26;
 /// More than Deflate can give for one byte.
 const EXPANSION: usize = 1100;
 
-/// Bits of a sample of a picture.
+/// Bits of each of the three numbers of a pixel: how finely a picture can hold a table's entries.
+///
+/// ```
+/// use onelight_formats::{PngDepth, hald};
+///
+/// let table = onelight_lut::Lut3d::identity(9)?;
+/// let [mut fine, mut coarse] = [Vec::new(), Vec::new()];
+/// hald::write(&mut fine, &table, PngDepth::Sixteen, [""; 0])?;
+/// hald::write(&mut coarse, &table, PngDepth::Eight, [""; 0])?;
+/// let [fine, coarse] = [hald::read(fine.as_slice())?, hald::read(coarse.as_slice())?];
+/// assert_eq!(fine.entries()[1][0], 8192.0 / 65_535.0);
+/// assert_eq!(coarse.entries()[1][0], 32.0 / 255.0);
+/// # Ok::<(), onelight_formats::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum PngDepth {
     /// Codes from 0 to 255.
@@ -25,7 +38,7 @@ pub enum PngDepth {
 }
 
 impl PngDepth {
-    /// The largest code.
+    /// The code that stands for 1.
     fn max(self) -> f32 {
         match self {
             Self::Eight => 255.0,
@@ -128,8 +141,8 @@ pub(super) fn refuse(what: &'static str, found: String, expected: &'static str) 
 }
 
 fn decoding(error: &DecodingError) -> Error {
-    let text = error.to_string();
     // The crate prints the innards of its chunk type.
+    let text = foreign_message(&error.to_string());
     let detail = text.split("ChunkType").next().unwrap_or_default().trim_end_matches([':', ' ', '.']);
     let detail = detail.trim_end_matches(" while decoding");
     refuse("PNG data", if detail.is_empty() { "damage" } else { detail }.to_owned(), "a whole PNG file")
@@ -139,46 +152,5 @@ fn encoding(error: EncodingError) -> Error {
     match error {
         EncodingError::IoError(error) => error.into(),
         other => std::io::Error::other(other).into(),
-    }
-}
-
-#[cfg(test)]
-pub(super) mod tests {
-    use super::PngDepth;
-    use crate::{Error, Lut3d};
-
-    /// Not separable, with entries beyond 0 and 1.
-    pub(crate) fn bent(size: usize) -> Lut3d {
-        let entries = Lut3d::identity(size).unwrap().entries().to_vec();
-        let bend = |[x, y, z]: [f32; 3]| [1.2 * x * x - 0.1 * y, y.sqrt(), 0.9 * z - 0.05 + 0.2 * x];
-        Lut3d::new(size, entries.into_iter().map(bend).collect()).unwrap()
-    }
-
-    /// What a table may become in a picture.
-    pub(crate) fn nearest_code(table: &Lut3d, depth: PngDepth) -> Vec<[f32; 3]> {
-        let max = if depth == PngDepth::Eight { 255.0 } else { 65_535.0 };
-        table.entries().iter().map(|entry| entry.map(|v| (v.clamp(0.0, 1.0) * max).round() / max)).collect()
-    }
-
-    /// A file that `read` takes, cut everywhere, with every byte changed, and with a size it does not have.
-    pub(crate) fn damage(file: &[u8], read: impl Fn(&[u8]) -> Result<Lut3d, Error>) {
-        assert!(read(file).is_ok());
-        // The last twelve bytes are the end mark, which no pixel waits for.
-        for end in 0..file.len() - 16 {
-            let error = read(&file[..end]).unwrap_err();
-            assert!(error.is_picture(), "{error}");
-        }
-        for at in 0..file.len() {
-            let mut bytes = file.to_vec();
-            bytes[at] ^= 0x55;
-            let _ = read(&bytes);
-        }
-        assert!(read(b"no PNG at all").unwrap_err().is_picture());
-        for claim in [0_u32, 1, 100_000, u32::MAX] {
-            let mut bytes = file.to_vec();
-            bytes[16..20].copy_from_slice(&claim.to_be_bytes());
-            bytes[20..24].copy_from_slice(&claim.to_be_bytes());
-            assert!(read(&bytes).is_err());
-        }
     }
 }

@@ -1,14 +1,16 @@
+//! `.spi3d`: a table as text, and the OpenColorIO configuration that gives it a shaper.
+
 mod config;
-#[cfg(test)]
-mod tests;
 
 use std::io::{BufWriter, Read, Write};
 
 pub use config::Spi3dConfig;
 
-use super::text::{number, read_text, shortened};
+use onelight_lut::Lut3d;
+
 use crate::error::{Error, TextProblem};
-use crate::lut3d::Lut3d;
+use crate::node_order::{blue_fastest, place_of};
+use crate::text::{number, quoted, read_text};
 
 /// The most bytes of an `.spi3d` file that are read.
 const MAX_BYTES: u64 = 1 << 30;
@@ -21,19 +23,24 @@ const MAX_BYTES: u64 = 1 << 30;
 /// # Errors
 ///
 /// If the writer fails.
-pub fn write_spi3d(writer: impl Write, table: &Lut3d) -> Result<(), Error> {
+///
+/// ```
+/// use onelight_formats::spi3d;
+///
+/// let table = onelight_lut::Lut3d::identity(2)?;
+/// let mut file = Vec::new();
+/// spi3d::write(&mut file, &table)?;
+/// assert!(file.starts_with(b"SPILUT 1.0\n3 3\n2 2 2\n0 0 0 0 0 0\n"));
+/// assert_eq!(spi3d::read(file.as_slice())?, table);
+/// # Ok::<(), onelight_formats::Error>(())
+/// ```
+pub fn write(writer: impl Write, table: &Lut3d) -> Result<(), Error> {
     let mut out = BufWriter::with_capacity(1 << 16, writer);
     let size = table.size();
     writeln!(out, "SPILUT 1.0\n3 3\n{size} {size} {size}")?;
     // Blue fastest, as the format's other writers have it; readers go by the indices.
-    for red in 0..size {
-        for green in 0..size {
-            for blue in 0..size {
-                if let Some([r, g, b]) = table.entries().get(red + size * (green + size * blue)) {
-                    writeln!(out, "{red} {green} {blue} {r} {g} {b}")?;
-                }
-            }
-        }
+    for ([red, green, blue], [r, g, b]) in blue_fastest(table) {
+        writeln!(out, "{red} {green} {blue} {r} {g} {b}")?;
     }
     out.flush()?;
     Ok(())
@@ -47,7 +54,7 @@ pub fn write_spi3d(writer: impl Write, table: &Lut3d) -> Result<(), Error> {
 ///
 /// If the input fails or is too large, the header is not that of a table with three equal sizes in bounds (see [`Lut3d`]),
 /// a node is missing, comes twice or lies outside, or a number is not finite in `f32`.
-pub fn read_spi3d(input: impl Read) -> Result<Lut3d, Error> {
+pub fn read(input: impl Read) -> Result<Lut3d, Error> {
     let text = read_text(input, MAX_BYTES)?;
     let mut lines = Lines { text: text.lines().enumerate(), last: 1 };
     let size = header(&mut lines)?;
@@ -67,8 +74,8 @@ pub fn read_spi3d(input: impl Read) -> Result<Lut3d, Error> {
             return Err(fail(TextProblem::TooManyDataLines { expected: count }));
         }
         let (node, entry) = entry(words).map_err(fail)?;
-        let outside = || unexpected("node", shortened(words), "three indices below the size");
-        let index = node.iter().all(|&i| i < size).then(|| node[0] + size * (node[1] + size * node[2]));
+        let outside = || unexpected("node", quoted(words), "three indices below the size");
+        let index = node.iter().all(|&i| i < size).then(|| place_of(node, size));
         let slot = index.and_then(|index| entries.get_mut(index)).ok_or_else(outside).map_err(fail)?;
         if !slot[0].is_nan() {
             return Err(fail(unexpected("node", format!("{node:?} again"), "every node once")));
@@ -76,7 +83,7 @@ pub fn read_spi3d(input: impl Read) -> Result<Lut3d, Error> {
         *slot = entry;
         found += 1;
     }
-    Lut3d::new(size, entries)
+    Ok(Lut3d::new(size, entries)?)
 }
 
 /// Lines that say something, counted from 1.
@@ -98,7 +105,7 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// A line of the header.
+    /// The next line, where the header still wants one.
     fn expect(&mut self, expected: &'static str) -> Result<(usize, &'a str), Error> {
         self.next_words()
             .ok_or_else(|| Error::text(self.last, unexpected("header", "the end of the file".to_owned(), expected)))
@@ -108,11 +115,11 @@ impl<'a> Lines<'a> {
 fn header(lines: &mut Lines<'_>) -> Result<usize, Error> {
     let (line, words) = lines.expect("SPILUT 1.0")?;
     if !words.split_ascii_whitespace().eq(["SPILUT", "1.0"]) {
-        return Err(Error::text(line, unexpected("first line", format!("{:?}", shortened(words)), "SPILUT 1.0")));
+        return Err(Error::text(line, unexpected("first line", format!("{:?}", quoted(words)), "SPILUT 1.0")));
     }
     let (line, words) = lines.expect("3 3")?;
     if !words.split_ascii_whitespace().eq(["3", "3"]) {
-        let found = format!("{:?}", shortened(words));
+        let found = format!("{:?}", quoted(words));
         return Err(Error::text(line, unexpected("channels in and out", found, "3 3")));
     }
     let expected = "three times the same size from 2 to 256";
@@ -122,7 +129,7 @@ fn header(lines: &mut Lines<'_>) -> Result<usize, Error> {
         &[Some(size @ Lut3d::MIN_SIZE..=Lut3d::MAX_SIZE), Some(green), Some(blue)] if green == size && blue == size => {
             Ok(size)
         }
-        _ => Err(Error::text(line, unexpected("sizes", format!("{:?}", shortened(words)), expected))),
+        _ => Err(Error::text(line, unexpected("sizes", format!("{:?}", quoted(words)), expected))),
     }
 }
 
@@ -135,7 +142,7 @@ fn entry(words: &str) -> Result<([usize; 3], [f32; 3]), TextProblem> {
     let [r, g, b, values @ ..] = all;
     let mut node = [0; 3];
     for (index, word) in node.iter_mut().zip([r, g, b]) {
-        *index = word.parse().map_err(|_| unexpected("node", shortened(word), "three indices below the size"))?;
+        *index = word.parse().map_err(|_| unexpected("node", quoted(word), "three indices below the size"))?;
     }
     let mut entry = [0.0; 3];
     for (value, word) in entry.iter_mut().zip(values) {

@@ -1,14 +1,10 @@
 use super::ClfProcess;
-use super::op::{Direction, ExponentStyle, LogCurve, Negatives, Op, Power, Range, Shape};
-use crate::coding::PowerCoding;
-use crate::domain::Domain;
-use crate::error::Error;
-use crate::form::plain::PlainLut;
-use crate::form::structured::{Decode, INPUT_MAX, LOG_FLOOR, Mix, Rows, StructuredLut};
-use crate::interpolate::Interpolation;
-use crate::lut1d::Lut1d;
-use crate::lut3d::Lut3d;
-use crate::shaper::ShaperKind;
+use super::op::{Direction, ExponentStyle, LogCurve, Op, Power, Range};
+use crate::error::{Error, Kind};
+use onelight_lut::{
+    Decode, Domain, INPUT_MAX, Interpolation, LOG_FLOOR, Lut1d, Lut3d, Mix, PlainLut, PowerCoding, Rows, ShaperKind,
+    StructuredLut,
+};
 
 const IDENTITY: Rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
@@ -49,9 +45,11 @@ impl ClfProcess {
     ///
     /// # Errors
     ///
-    /// None that a [`PlainLut`] can cause today.
+    /// If the shaper is no [`ShaperKind::Log2Offset`], which is the only one today.
     pub fn from_plain(lut: &PlainLut) -> Result<Self, Error> {
-        let ShaperKind::Log2Offset { offset, max } = lut.shaper().kind();
+        let ShaperKind::Log2Offset { offset, max } = lut.shaper().kind() else {
+            return Err(Kind::Shaper { found: lut.shaper().kind() }.into());
+        };
         let curve = LogCurve {
             log_slope: 1.0 / (1.0 + max / offset).log2(),
             lin_slope: 1.0 / offset,
@@ -108,8 +106,10 @@ fn exponent(coding: &PowerCoding) -> Option<Op> {
     if *coding == PowerCoding::LINEAR {
         return None;
     }
-    let power = Power { exponent: coding.exponent(), offset: coding.offset() };
-    let shape = if power.offset == 0.0 { Shape::Basic } else { Shape::MonCurve };
-    let style = ExponentStyle { shape, negatives: Negatives::Mirror, direction: Direction::Reverse };
+    let (style, power) = if coding.offset() == 0.0 {
+        (ExponentStyle::BASIC_MIRROR_REV, Power::Basic(coding.exponent()))
+    } else {
+        (ExponentStyle::MON_CURVE_MIRROR_REV, Power::MonCurve(*coding))
+    };
     Some(Op::Exponent { style, channels: [power; 3] })
 }

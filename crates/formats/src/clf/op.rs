@@ -1,7 +1,4 @@
-use crate::coding::PowerCoding;
-use crate::interpolate::Interpolation;
-use crate::lut1d::Lut1d;
-use crate::lut3d::Lut3d;
+use onelight_lut::{Interpolation, Lut1d, Lut3d, PowerCoding};
 
 /// Smallest value whose logarithm is taken: the smallest normal `f32`, as the format wants it \[S2014-006\].
 const LOG_MIN: f64 = f32::MIN_POSITIVE as f64;
@@ -72,12 +69,13 @@ pub(super) struct Toe {
     pub(super) slope: Option<f64>,
 }
 
-/// What kind of power an `Exponent` is.
+/// What kind of power an `Exponent` is. Only the format's own styles are made, so that each has its word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ExponentStyle {
+    word: &'static str,
     pub(super) shape: Shape,
-    pub(super) negatives: Negatives,
-    pub(super) direction: Direction,
+    negatives: Negatives,
+    direction: Direction,
 }
 
 /// A power alone, or one with a straight foot.
@@ -89,18 +87,20 @@ pub(super) enum Shape {
 
 /// What becomes of negative values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Negatives {
+enum Negatives {
     /// 0 for a power; along the foot's line for a curve that has one.
     Plain,
     Mirror,
     PassThrough,
 }
 
-/// The parameters of one channel of an `Exponent`; `Basic` has no offset.
+/// The parameters of one channel of an `Exponent`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Power {
-    pub(super) exponent: f64,
-    pub(super) offset: f64,
+pub(super) enum Power {
+    /// The exponent, above 0.
+    Basic(f64),
+    /// A power with a straight foot.
+    MonCurve(PowerCoding),
 }
 
 impl Op {
@@ -165,7 +165,7 @@ impl Range {
 }
 
 impl LogCurve {
-    /// The bare logarithm.
+    /// The logarithm of a base, with neither slopes nor offsets of its own.
     pub(super) fn of_base(base: f64) -> Self {
         Self { base, log_slope: 1.0, log_offset: 0.0, lin_slope: 1.0, lin_offset: 0.0, toe: None }
     }
@@ -199,19 +199,31 @@ impl LogCurve {
 }
 
 impl ExponentStyle {
+    /// The output's coding as a power alone.
+    pub(super) const BASIC_MIRROR_REV: Self =
+        Self::new("basicMirrorRev", Shape::Basic, Negatives::Mirror, Direction::Reverse);
+
+    /// The output's coding with a straight foot.
+    pub(super) const MON_CURVE_MIRROR_REV: Self =
+        Self::new("monCurveMirrorRev", Shape::MonCurve, Negatives::Mirror, Direction::Reverse);
+
+    const fn new(word: &'static str, shape: Shape, negatives: Negatives, direction: Direction) -> Self {
+        Self { word, shape, negatives, direction }
+    }
+
     /// What the file calls it.
     pub(super) fn word(self) -> &'static str {
-        STYLES.iter().find(|(_, style)| *style == self).map_or("", |(word, _)| word)
+        self.word
     }
 
     pub(super) fn from_word(word: &str) -> Option<Self> {
-        STYLES.iter().find(|(known, _)| *known == word).map(|(_, style)| *style)
+        STYLES.into_iter().find(|style| style.word == word)
     }
 
     fn apply(self, power: Power, v: f64) -> f64 {
-        match self.shape {
-            Shape::Basic => self.basic(power.exponent, v),
-            Shape::MonCurve => self.mon_curve(power, v),
+        match power {
+            Power::Basic(exponent) => self.basic(exponent, v),
+            Power::MonCurve(coding) => self.mon_curve(&coding, v),
         }
     }
 
@@ -233,43 +245,37 @@ impl ExponentStyle {
         }
     }
 
-    fn mon_curve(self, Power { exponent, offset }: Power, v: f64) -> f64 {
-        // Reading and building have made sure that there is such a curve.
-        let coding = PowerCoding::new(exponent, offset).unwrap_or(PowerCoding::LINEAR);
-        let curve = |v: f64| match self.direction {
-            Direction::Forward => coding.decode(v),
-            Direction::Reverse => coding.encode(v),
-        };
-        if v < 0.0 && self.negatives == Negatives::Plain && offset > 0.0 {
+    fn mon_curve(self, coding: &PowerCoding, v: f64) -> f64 {
+        if v < 0.0 && self.negatives == Negatives::Plain && coding.offset() > 0.0 {
             // Half way along the foot, coded and in linear light.
-            let coded = 0.5 * offset / (exponent - 1.0);
+            let coded = 0.5 * coding.offset() / (coding.exponent() - 1.0);
             let linear = coding.decode(coded);
             return match self.direction {
                 Direction::Forward => v * linear / coded,
                 Direction::Reverse => v * coded / linear,
             };
         }
-        curve(v)
+        match self.direction {
+            Direction::Forward => coding.decode(v),
+            Direction::Reverse => coding.encode(v),
+        }
     }
 }
 
-const STYLES: [(&str, ExponentStyle); 10] = {
-    const fn style(shape: Shape, negatives: Negatives, direction: Direction) -> ExponentStyle {
-        ExponentStyle { shape, negatives, direction }
-    }
+const STYLES: [ExponentStyle; 10] = {
     use Direction::{Forward, Reverse};
     use Negatives::{Mirror, PassThrough, Plain};
     use Shape::{Basic, MonCurve};
     [
-        ("basicFwd", style(Basic, Plain, Forward)),
-        ("basicRev", style(Basic, Plain, Reverse)),
-        ("basicMirrorFwd", style(Basic, Mirror, Forward)),
-        ("basicMirrorRev", style(Basic, Mirror, Reverse)),
-        ("basicPassThruFwd", style(Basic, PassThrough, Forward)),
-        ("basicPassThruRev", style(Basic, PassThrough, Reverse)),
-        ("monCurveFwd", style(MonCurve, Plain, Forward)),
-        ("monCurveRev", style(MonCurve, Plain, Reverse)),
-        ("monCurveMirrorFwd", style(MonCurve, Mirror, Forward)),
-        ("monCurveMirrorRev", style(MonCurve, Mirror, Reverse)),
+        ExponentStyle::new("basicFwd", Basic, Plain, Forward),
+        ExponentStyle::new("basicRev", Basic, Plain, Reverse),
+        ExponentStyle::new("basicMirrorFwd", Basic, Mirror, Forward),
+        ExponentStyle::BASIC_MIRROR_REV,
+        ExponentStyle::new("basicPassThruFwd", Basic, PassThrough, Forward),
+        ExponentStyle::new("basicPassThruRev", Basic, PassThrough, Reverse),
+        ExponentStyle::new("monCurveFwd", MonCurve, Plain, Forward),
+        ExponentStyle::new("monCurveRev", MonCurve, Plain, Reverse),
+        ExponentStyle::new("monCurveMirrorFwd", MonCurve, Mirror, Forward),
+        ExponentStyle::MON_CURVE_MIRROR_REV,
     ]
 };

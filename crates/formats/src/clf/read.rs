@@ -1,3 +1,4 @@
+mod content;
 mod element;
 mod markup;
 mod operation;
@@ -7,7 +8,7 @@ use std::io::Read;
 
 use super::ClfProcess;
 use crate::error::{Error, TextProblem};
-use crate::format::text::read_text;
+use crate::text::read_text;
 use element::Element;
 use markup::{Markup, Part};
 
@@ -27,7 +28,7 @@ impl ClfProcess {
     ///
     /// If the text is not well-formed XML with a `ProcessList` of version 3, or an operation is none of those that are
     /// read, lacks something, or has a number too few, too many, not finite or out of bounds. Table sizes are those of
-    /// [`crate::Lut1d`] and [`crate::Lut3d`]; memory for entries is taken as their numbers come.
+    /// [`onelight_lut::Lut1d`] and [`onelight_lut::Lut3d`]; memory for entries is taken as their numbers come.
     pub fn parse(text: &str) -> Result<Self, Error> {
         let mut markup = Markup::new(text);
         let root = match markup.next_part()? {

@@ -4,11 +4,10 @@ use std::io::{self, BufWriter, Write};
 use quick_xml::escape::escape;
 
 use super::ClfProcess;
-use super::op::{Beyond, Direction, LogCurve, Op, Power, Range, Shape};
+use super::op::{Beyond, Direction, LogCurve, Op, Power, Range};
 use crate::error::Error;
-use crate::interpolate::Interpolation;
-use crate::lut1d::Lut1d;
-use crate::lut3d::Lut3d;
+use crate::node_order::blue_fastest;
+use onelight_lut::{Interpolation, Lut1d, Lut3d};
 
 /// The `id` of a file without a name; the format wants one.
 const NAMELESS: &str = "look";
@@ -16,6 +15,7 @@ const NAMELESS: &str = "look";
 /// Depths of every operation: programs take the numbers as they are.
 const DEPTHS: &str = r#"inBitDepth="32f" outBitDepth="32f""#;
 
+/// What a file calls red, green and blue.
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
 
 impl ClfProcess {
@@ -65,9 +65,11 @@ fn operation(out: &mut impl Write, op: &Op) -> io::Result<()> {
         Op::Log { direction, channels } => log(out, *direction, channels)?,
         Op::Exponent { style, channels } => {
             writeln!(out, r#" style="{}">"#, style.word())?;
-            per_channel(out, "ExponentParams", channels, |Power { exponent, offset }| match style.shape {
-                Shape::Basic => format!(r#" exponent="{exponent}""#),
-                Shape::MonCurve => format!(r#" exponent="{exponent}" offset="{offset}""#),
+            per_channel(out, "ExponentParams", channels, |power| match power {
+                Power::Basic(exponent) => format!(r#" exponent="{exponent}""#),
+                Power::MonCurve(coding) => {
+                    format!(r#" exponent="{}" offset="{}""#, coding.exponent(), coding.offset())
+                }
             })?;
         }
         Op::Lut1d(lut) => lut1d(out, lut)?,
@@ -158,7 +160,7 @@ fn lut1d(out: &mut impl Write, lut: &Lut1d) -> io::Result<()> {
     writeln!(out, "    </Array>")
 }
 
-/// Blue runs fastest in a CLF.
+/// The table's array, in which blue runs fastest.
 fn lut3d(out: &mut impl Write, lut: &Lut3d, interpolation: Interpolation) -> io::Result<()> {
     let how = match interpolation {
         Interpolation::Trilinear => "trilinear",
@@ -166,14 +168,8 @@ fn lut3d(out: &mut impl Write, lut: &Lut3d, interpolation: Interpolation) -> io:
     };
     let size = lut.size();
     writeln!(out, " interpolation=\"{how}\">\n    <Array dim=\"{size} {size} {size} 3\">")?;
-    for red in 0..size {
-        for green in 0..size {
-            for blue in 0..size {
-                if let Some(entry) = lut.entries().get(red + size * (green + size * blue)) {
-                    writeln!(out, "{}", Spaced(entry))?;
-                }
-            }
-        }
+    for (_, entry) in blue_fastest(lut) {
+        writeln!(out, "{}", Spaced(&entry))?;
     }
     writeln!(out, "    </Array>")
 }

@@ -1,15 +1,15 @@
 mod header;
 mod lines;
+mod numbers;
 
 use std::io::BufRead;
 
-use super::{CubeFile, printable};
+use super::CubeFile;
 use crate::error::{Error, TextProblem};
+use crate::text::{RESERVED, one_line};
 use header::{Header, Layout};
 use lines::Lines;
-
-/// Entries reserved at once: a size in a header is a claim until its lines have come.
-const RESERVED: usize = 1 << 16;
+use numbers::numbers;
 
 impl CubeFile {
     /// [`CubeFile::read`] from text.
@@ -30,7 +30,7 @@ impl CubeFile {
     /// # Errors
     ///
     /// If the input fails, or a line is not as the format wants it: an unknown or repeated keyword, one after
-    /// the first data line, a size out of bounds (see [`crate::Lut1d`], [`crate::Lut3d`]), a wrong number of
+    /// the first data line, a size out of bounds (see [`onelight_lut::Lut1d`], [`onelight_lut::Lut3d`]), a wrong number of
     /// numbers or of data lines, or a number that is not finite in `f32`. The limits of this type keep a hostile
     /// file from taking more memory than its own bytes warrant.
     pub fn read(input: impl BufRead) -> Result<Self, Error> {
@@ -84,7 +84,7 @@ impl CubeFile {
         body.check_complete().map_err(end)?;
         let title = header.title().unwrap_or_default();
         let mut file = body.layout.file(body.entries)?.with_title(&title);
-        let mut comments: Vec<String> = comments.iter().map(|text| printable(text).trim_end().to_owned()).collect();
+        let mut comments: Vec<String> = comments.iter().map(|text| one_line(text).trim_end().to_owned()).collect();
         if file.may_have_title_in_comments() {
             file = file.with_title(&take_title(&mut comments));
         }
@@ -152,36 +152,4 @@ fn starts_as_data(text: &str) -> bool {
         }
         _ => false,
     }
-}
-
-/// Exactly `N` finite numbers.
-fn numbers<const N: usize>(what: &'static str, text: &str) -> Result<[f32; N], TextProblem> {
-    let mut values = [0.0; N];
-    let mut words = text.split_ascii_whitespace();
-    for (found, value) in values.iter_mut().enumerate() {
-        let Some(word) = words.next() else {
-            return Err(TextProblem::NumberCount { what, found, expected: N });
-        };
-        *value = match word.parse::<f32>() {
-            Ok(value) if value.is_finite() => value,
-            Ok(_) => {
-                let found = quoted(word);
-                return Err(TextProblem::NotFinite { what, found });
-            }
-            Err(_) => {
-                let found = quoted(word);
-                return Err(TextProblem::NotANumber { what, found });
-            }
-        };
-    }
-    match words.count() {
-        0 => Ok(values),
-        more => Err(TextProblem::NumberCount { what, found: N + more, expected: N }),
-    }
-}
-
-/// A word as it goes into a message.
-fn quoted(word: &str) -> String {
-    const SHOWN: usize = 40;
-    word.chars().take(SHOWN).collect()
 }

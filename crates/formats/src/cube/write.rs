@@ -1,14 +1,8 @@
 use std::io::Write;
 
 use super::CubeFile;
-use crate::domain::Domain;
 use crate::error::Error;
-use crate::lut1d::Lut1d;
-use crate::lut3d::Lut3d;
-
-/// The most bytes of a title or comment that are written, so that lines stay within the 250 bytes of the
-/// format's specification \[AdobeCube2013\].
-pub(super) const TEXT_BYTES: usize = 200;
+use onelight_lut::{Domain, Lut1d, Lut3d};
 
 /// Bytes gathered before they go to the writer.
 const BLOCK: usize = 1 << 16;

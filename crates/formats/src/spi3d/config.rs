@@ -1,10 +1,10 @@
 use std::fmt::{self, Display};
 use std::io::{BufWriter, Write};
 
-use crate::error::Error;
-use crate::form::plain::PlainLut;
-use crate::interpolate::Interpolation;
-use crate::shaper::ShaperKind;
+use onelight_lut::{Interpolation, PlainLut, ShaperKind};
+
+use crate::error::{Error, Kind};
+use crate::text::one_line;
 
 /// An OpenColorIO configuration with two colour spaces: scene-linear, and the look that an `.spi3d` file holds.
 ///
@@ -13,13 +13,15 @@ use crate::shaper::ShaperKind;
 /// space.
 ///
 /// ```
-/// # use onelight_lut::{Interpolation, Lut3d, PlainLut, Shaper, Spi3dConfig, write_spi3d};
+/// use onelight_formats::{Spi3dConfig, spi3d};
+/// use onelight_lut::{Interpolation, Lut3d, PlainLut, Shaper};
+///
 /// let lut = PlainLut::new(Shaper::log2(0.02, 4.0)?, Lut3d::identity(5)?, Interpolation::Tetrahedral);
 /// let [mut table, mut config] = [Vec::new(), Vec::new()];
-/// write_spi3d(&mut table, lut.table())?;
+/// spi3d::write(&mut table, lut.table())?;
 /// Spi3dConfig::new(&lut, "look.spi3d").with_look("my look").write(&mut config)?;
 /// assert!(String::from_utf8_lossy(&config).contains("!<FileTransform> {src: \"look.spi3d\", interpolation: tetrahedral}"));
-/// # Ok::<(), onelight_lut::Error>(())
+/// # Ok::<(), onelight_formats::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spi3dConfig {
@@ -66,10 +68,12 @@ impl Spi3dConfig {
     ///
     /// # Errors
     ///
-    /// If the writer fails.
+    /// If the writer fails, or the shaper is no [`ShaperKind::Log2Offset`], which is the only one today.
     pub fn write(&self, writer: impl Write) -> Result<(), Error> {
         let mut out = BufWriter::new(writer);
-        let ShaperKind::Log2Offset { offset, max } = self.shaper;
+        let ShaperKind::Log2Offset { offset, max } = self.shaper else {
+            return Err(Kind::Shaper { found: self.shaper }.into());
+        };
         let stops = (1.0 + max / offset).log2();
         let interpolation = match self.interpolation {
             Interpolation::Trilinear => "linear",
@@ -78,7 +82,7 @@ impl Spi3dConfig {
         let (file, look) = (Quoted(&self.file), Quoted(&self.look));
         writeln!(out, "ocio_profile_version: 2")?;
         for comment in &self.comments {
-            writeln!(out, "# {}", comment.chars().map(|c| if c.is_control() { ' ' } else { c }).collect::<String>())?;
+            writeln!(out, "# {}", one_line(comment))?;
         }
         write!(
             out,
@@ -112,6 +116,7 @@ colorspaces:
     }
 }
 
+/// The name of the scene's colour space.
 const SCENE: &str = "scene-linear";
 
 /// A scalar of YAML between double quotes.
@@ -120,10 +125,9 @@ struct Quoted<'a>(&'a str);
 impl Display for Quoted<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("\"")?;
-        for c in self.0.chars() {
+        for c in one_line(self.0).chars() {
             match c {
                 '"' | '\\' => write!(f, "\\{c}")?,
-                c if c.is_control() => f.write_str(" ")?,
                 c => write!(f, "{c}")?,
             }
         }

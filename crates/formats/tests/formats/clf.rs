@@ -1,9 +1,8 @@
 //! Files against the LUTs they were made from, and files that must be refused.
 
-use crate::domain::Domain;
-use crate::error::Error;
-use crate::{
-    ClfProcess, Decode, Interpolation, Lut1d, Lut3d, Mix, PlainLut, PowerCoding, SceneSampler, Shaper, StructuredLut,
+use onelight_formats::{ClfProcess, Error};
+use onelight_lut::{
+    Decode, Domain, Interpolation, Lut1d, Lut3d, Mix, PlainLut, PowerCoding, SceneSampler, Shaper, StructuredLut,
     StructuredParts, bake,
 };
 

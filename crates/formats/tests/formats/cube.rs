@@ -2,8 +2,9 @@
 
 use std::io::{self, BufReader, Read};
 
-use crate::{CubeFile, Domain, Interpolation, Lut1d, Lut3d, PlainLut, SceneSampler, Shaper, bake};
 use approx::assert_abs_diff_eq;
+use onelight_formats::CubeFile;
+use onelight_lut::{Domain, Interpolation, Lut1d, Lut3d, PlainLut, SceneSampler, Shaper, bake};
 
 /// Not separable, steep near 0, with values from 1e-9 to above 1.
 fn look([r, g, b]: [f64; 3]) -> [f64; 3] {

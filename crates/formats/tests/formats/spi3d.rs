@@ -1,9 +1,11 @@
-use crate::format::picture::tests::bent;
-use crate::{Interpolation, Lut3d, PlainLut, Shaper, Spi3dConfig, read_spi3d, write_spi3d};
+use onelight_formats::{Spi3dConfig, spi3d};
+use onelight_lut::{Interpolation, Lut3d, PlainLut, Shaper};
+
+use crate::tables::bent;
 
 fn text(table: &Lut3d) -> String {
     let mut bytes = Vec::new();
-    write_spi3d(&mut bytes, table).unwrap();
+    spi3d::write(&mut bytes, table).unwrap();
     String::from_utf8(bytes).unwrap()
 }
 
@@ -12,12 +14,12 @@ fn tables_come_back_bit_for_bit_in_any_order() {
     for size in [2, 9, 17] {
         let table = bent(size);
         let written = text(&table);
-        assert_eq!(read_spi3d(written.as_bytes()).unwrap(), table);
+        assert_eq!(spi3d::read(written.as_bytes()).unwrap(), table);
         let (head, body) = written.split_at(written.match_indices('\n').nth(2).unwrap().0);
         let mut lines: Vec<_> = body.trim().lines().collect();
         lines.reverse();
         let turned = format!("\u{feff}{head}\r\n# a comment\r\n\r\n{}\r\n", lines.join("\r\n"));
-        assert_eq!(read_spi3d(turned.as_bytes()).unwrap(), table);
+        assert_eq!(spi3d::read(turned.as_bytes()).unwrap(), table);
     }
 }
 
@@ -54,13 +56,13 @@ fn bad_files_are_refused_with_their_line() {
         (good.lines().take(10).collect::<Vec<_>>().join("\n") + "\n####################", 11, "found 7 data lines"),
     ];
     for (file, line, says) in cases {
-        let error = read_spi3d(file.as_bytes()).unwrap_err();
+        let error = spi3d::read(file.as_bytes()).unwrap_err();
         assert!(error.to_string().contains(says), "{error} for {says}");
         assert_eq!(error.line(), Some(line), "{error}");
     }
     // Of the last number any first digits would do.
     for end in 0..good.trim_end().rfind(' ').unwrap() {
-        assert!(read_spi3d(&good.as_bytes()[..end]).is_err(), "{end}");
+        assert!(spi3d::read(&good.as_bytes()[..end]).is_err(), "{end}");
     }
 }
 

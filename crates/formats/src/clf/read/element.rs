@@ -2,7 +2,7 @@ use quick_xml::XmlVersion;
 use quick_xml::events::BytesStart;
 
 use crate::error::TextProblem;
-use crate::format::text::{number, shortened, told};
+use crate::text::{foreign_message, number, quoted};
 
 /// The most attributes of one element that are read.
 const MAX_ATTRIBUTES: usize = 32;
@@ -25,9 +25,10 @@ impl Element {
             if attributes.len() == MAX_ATTRIBUTES {
                 return Err(TextProblem::TooMany { what: "attributes of an element", max: MAX_ATTRIBUTES });
             }
-            let attribute = attribute.map_err(|error| bad(told(&error.to_string())))?;
-            let value =
-                attribute.normalized_value(XmlVersion::Implicit1_0).map_err(|error| bad(told(&error.to_string())))?;
+            let attribute = attribute.map_err(|error| bad(foreign_message(&error.to_string())))?;
+            let value = attribute
+                .normalized_value(XmlVersion::Implicit1_0)
+                .map_err(|error| bad(foreign_message(&error.to_string())))?;
             attributes.push((attribute.key.local_name().into_inner().to_owned(), value.into_owned()));
         }
         Ok(Self { at, name: start.local_name().into_inner().to_owned(), attributes })
@@ -48,7 +49,7 @@ impl Element {
     pub(super) fn required(&self, attribute: &'static str, expected: &'static str) -> Result<&str, TextProblem> {
         self.get(attribute).ok_or_else(|| TextProblem::Unexpected {
             what: attribute,
-            found: format!("no such attribute of <{}>", shortened(&self.name)),
+            found: format!("no such attribute of <{}>", quoted(&self.name)),
             expected,
         })
     }
@@ -62,12 +63,12 @@ impl Element {
     pub(super) fn dimensions(&self, expected: &'static str) -> Result<Vec<usize>, TextProblem> {
         let dim = self.required("dim", expected)?;
         let numbers: Option<Vec<_>> = dim.split_ascii_whitespace().take(5).map(|word| word.parse().ok()).collect();
-        numbers.ok_or_else(|| TextProblem::Unexpected { what: "dim", found: shortened(dim), expected })
+        numbers.ok_or_else(|| TextProblem::Unexpected { what: "dim", found: quoted(dim), expected })
     }
 
     /// The problem with the value of an attribute.
     pub(super) fn bad(&self, attribute: &'static str, expected: &'static str) -> TextProblem {
-        let found = self.get(attribute).map_or("none".to_owned(), |value| format!("{:?}", shortened(value)));
+        let found = self.get(attribute).map_or("none".to_owned(), |value| format!("{:?}", quoted(value)));
         TextProblem::Unexpected { what: attribute, found, expected }
     }
 }

@@ -6,7 +6,7 @@ use quick_xml::events::{BytesRef, Event};
 
 use super::element::Element;
 use crate::error::{Error, TextProblem};
-use crate::format::text::{shortened, told};
+use crate::text::{foreign_message, quoted};
 
 /// The parts of an XML text, each with the byte where it starts.
 pub(super) struct Markup<'a> {
@@ -93,9 +93,9 @@ impl<'a> Markup<'a> {
     /// The error for a part that does not belong where it stands.
     pub(super) fn unexpected(&self, at: usize, what: &'static str, part: &Part<'_>, expected: &'static str) -> Error {
         let found = match part {
-            Part::Start(element) => format!("<{}>", shortened(element.name())),
+            Part::Start(element) => format!("<{}>", quoted(element.name())),
             Part::End => "its end".to_owned(),
-            Part::Text(text) => format!("{:?}", shortened(text.trim())),
+            Part::Text(text) => format!("{:?}", quoted(text.trim())),
         };
         self.fail(at, TextProblem::Unexpected { what, found, expected })
     }
@@ -112,7 +112,7 @@ impl<'a> Markup<'a> {
                 Event::GeneralRef(reference) => self.referred(at, &reference)?.into(),
                 Event::End(_) => return Ok(()),
                 Event::Start(start) => {
-                    let found = format!("<{}>", shortened(start.local_name().into_inner()));
+                    let found = format!("<{}>", quoted(start.local_name().into_inner()));
                     let problem =
                         TextProblem::Unexpected { what: "content of an element", found, expected: "text only" };
                     return Err(self.fail(at, problem));
@@ -152,7 +152,7 @@ impl<'a> Markup<'a> {
             Ok(event) => Ok((at, event)),
             Err(error) => {
                 let at = usize::try_from(self.reader.error_position()).unwrap_or(usize::MAX);
-                let found = told(&error.to_string());
+                let found = foreign_message(&error.to_string());
                 Err(self.fail(at, TextProblem::Unexpected { what: "markup", found, expected: "well-formed XML" }))
             }
         }
@@ -163,7 +163,7 @@ impl<'a> Markup<'a> {
         let named = resolve_predefined_entity(reference).map(str::to_owned);
         let character = || reference.resolve_char_ref().ok().flatten().map(String::from);
         named.or_else(character).ok_or_else(|| {
-            let found = format!("&{};", shortened(reference));
+            let found = format!("&{};", quoted(reference));
             self.fail(at, TextProblem::Unexpected { what: "reference", found, expected: "a character of XML" })
         })
     }

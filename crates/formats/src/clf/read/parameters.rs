@@ -1,8 +1,8 @@
+use super::content::Content;
 use super::element::Element;
-use super::operation::Content;
-use crate::coding::PowerCoding;
+use crate::clf::op::{Beyond, Direction, ExponentStyle, LogCurve, Op, Power, Range, Shape, Toe};
 use crate::error::TextProblem;
-use crate::format::clf::op::{Beyond, Direction, ExponentStyle, LogCurve, Op, Power, Range, Shape, Toe};
+use onelight_lut::PowerCoding;
 
 pub(super) fn range(start: &Element, contents: &[Content]) -> Result<Op, TextProblem> {
     let mut ends = [[None; 2]; 2];
@@ -116,10 +116,10 @@ fn power(element: &Element, shape: Shape) -> Result<Power, TextProblem> {
         Shape::Basic if offset != 0.0 => Err(element.bad("offset", "none in the basic styles")),
         Shape::Basic if !(0.01..=100.0).contains(&exponent) => Err(element.bad("exponent", expected)),
         Shape::MonCurve if !(1.0..=10.0).contains(&exponent) => Err(element.bad("exponent", expected)),
-        Shape::MonCurve if PowerCoding::new(exponent, offset).is_err() => {
-            Err(element.bad("offset", "a number from 0 to 0.9, and 0 with an exponent of 1"))
-        }
-        _ => Ok(Power { exponent, offset }),
+        Shape::Basic => Ok(Power::Basic(exponent)),
+        Shape::MonCurve => PowerCoding::new(exponent, offset)
+            .map(Power::MonCurve)
+            .map_err(|_| element.bad("offset", "a number from 0 to 0.9, and 0 with an exponent of 1")),
     }
 }
 

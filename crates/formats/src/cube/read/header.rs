@@ -1,9 +1,8 @@
-use super::{numbers, quoted};
-use crate::domain::Domain;
+use super::numbers::numbers;
+use crate::cube::CubeFile;
 use crate::error::{Error, TextProblem};
-use crate::format::cube::CubeFile;
-use crate::lut1d::Lut1d;
-use crate::lut3d::Lut3d;
+use crate::text::quoted;
+use onelight_lut::{Domain, Lut1d, Lut3d};
 
 /// What the keywords said so far.
 #[derive(Default)]

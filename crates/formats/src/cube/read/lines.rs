@@ -1,8 +1,8 @@
 use std::borrow::Cow;
 use std::io::{BufRead, Read};
 
+use crate::cube::CubeFile;
 use crate::error::{Error, TextProblem};
-use crate::format::cube::CubeFile;
 
 /// Lines of bounded length from a reader, counted from 1.
 pub(super) struct Lines<R> {
