@@ -1,21 +1,17 @@
-//! An engine: loads the numbers of a look and maps a frame of half floats with them.
-//!
-//! `cargo run -p onelight-formats --example apply_direct_json -- look.direct.json`; without a path, a look of this repository.
+//! An engine loads the numbers of a look and maps a frame of half floats: `... --example apply_direct_json -- look.direct.json`.
 
-use std::error::Error;
-use std::fs::File;
-use std::process::ExitCode;
+use std::{error::Error, fs::File, process::ExitCode};
 
 use half::f16;
 use onelight_formats::direct_json;
 use onelight_lut::{Channels, PixelMap, PixelsMut};
 
-const LOOK: &str = "../../fixtures/direct/kodak-5207_kodak-2383.direct.json";
+const LOOK: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/direct/kodak-5207_kodak-2383.direct.json");
 
 fn main() -> ExitCode {
-    let path = std::env::args().nth(1).unwrap_or_else(|| format!("{}/{LOOK}", env!("CARGO_MANIFEST_DIR")));
+    let path = std::env::args().nth(1).unwrap_or_else(|| LOOK.to_owned());
     match grey_through(&path) {
-        Ok([r, g, b, _]) => println!("mid grey on the screen: {r:.3} {g:.3} {b:.3}"),
+        Ok(grey) => println!("mid grey becomes {grey:.3?}"),
         Err(error) => {
             eprintln!("{path}: {error}");
             return ExitCode::FAILURE;
