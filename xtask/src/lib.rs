@@ -2,8 +2,6 @@
 
 mod buffers;
 mod command;
-mod direct_file;
-mod export;
 mod exposure;
 mod folders;
 mod likeness;

@@ -15,11 +15,28 @@ pub(crate) enum Kind {
     Film(onelight_film::Error),
     Printing(onelight_printing::Error),
     Lut(onelight_lut::Error),
-    Look { file: String, line: usize, problem: String },
-    Word { what: &'static str, found: String, expected: String },
+    #[cfg(feature = "formats")]
+    Formats(onelight_formats::Error),
+    Look {
+        file: String,
+        line: usize,
+        problem: String,
+    },
+    Word {
+        what: &'static str,
+        found: String,
+        expected: String,
+    },
     Unreachable(String),
-    Setting { what: String, found: f64, expected: String },
-    UnknownStock { found: String, nearest: Option<&'static str> },
+    Setting {
+        what: String,
+        found: f64,
+        expected: String,
+    },
+    UnknownStock {
+        found: String,
+        nearest: Option<&'static str>,
+    },
     Contradiction(String),
 }
 
@@ -95,6 +112,13 @@ impl From<onelight_lut::Error> for Error {
     }
 }
 
+#[cfg(feature = "formats")]
+impl From<onelight_formats::Error> for Error {
+    fn from(error: onelight_formats::Error) -> Self {
+        Self(Kind::Formats(error))
+    }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
@@ -102,6 +126,8 @@ impl fmt::Display for Error {
             Kind::Film(error) => error.fmt(f),
             Kind::Printing(error) => error.fmt(f),
             Kind::Lut(error) => error.fmt(f),
+            #[cfg(feature = "formats")]
+            Kind::Formats(error) => error.fmt(f),
             Kind::Look { file, line, problem } => write!(f, "{file}:{line}: {problem}"),
             Kind::Word { what, found, expected } => write!(f, "{what}: found {found:?}, expected {expected}"),
             Kind::Setting { what, found, expected } => write!(f, "{what}: found {found}, expected {expected}"),
@@ -124,6 +150,8 @@ impl std::error::Error for Error {
             Kind::Film(error) => error.source(),
             Kind::Printing(error) => error.source(),
             Kind::Lut(error) => error.source(),
+            #[cfg(feature = "formats")]
+            Kind::Formats(error) => error.source(),
             _ => None,
         }
     }

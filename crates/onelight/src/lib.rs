@@ -123,6 +123,8 @@ pub use films::Films;
 pub use look::{FirstApproach, Look, PostColour, Texels, ToneCurve, ToneMapped};
 pub use onelight_film as film;
 pub use onelight_film::{DyeModel, Matching, SheetText, Stock, StockKind, Tail};
+#[cfg(feature = "formats")]
+pub use onelight_formats as formats;
 #[cfg(feature = "gpu")]
 pub use onelight_gpu as gpu;
 pub use onelight_lut as lut;

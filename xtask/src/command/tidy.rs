@@ -15,11 +15,12 @@ pub(crate) struct Arguments {
 }
 
 /// A crate of the workspace and the crates of ours that it may depend on.
-const LAYERS: [(&str, &[&str]); 9] = [
+const LAYERS: [(&str, &[&str]); 10] = [
     ("crates/spectra", &[]),
     ("crates/film", &["onelight-spectra"]),
     ("crates/printing", &["onelight-spectra", "onelight-film"]),
     ("crates/lut", &[]),
+    ("crates/formats", &["onelight-lut"]),
     ("crates/gpu", &["onelight-lut"]),
     (
         "crates/onelight",
@@ -27,7 +28,7 @@ const LAYERS: [(&str, &[&str]); 9] = [
     ),
     ("stocks", &[]),
     ("benches", &["onelight", "onelight-lut"]),
-    ("xtask", &["onelight", "onelight-lut", "onelight-gpu"]),
+    ("xtask", &["onelight", "onelight-lut", "onelight-formats", "onelight-gpu"]),
 ];
 /// Names that say nothing about what is in a module.
 const EMPTY_NAMES: [&str; 5] = ["util", "core", "common", "math", "helpers"];

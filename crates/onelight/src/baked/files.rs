@@ -2,10 +2,10 @@
 
 use std::io::Write;
 
-use onelight_lut::{
-    ClfProcess, CubeFile, Domain, Interpolation, Lut3d, PngDepth, Spi3dConfig, Storage, StripGreen, read_hald,
-    read_spi3d, read_strip, write_hald, write_ktx2, write_spi3d, write_strip,
+use onelight_formats::{
+    ClfProcess, CubeFile, PngDepth, Spi3dConfig, StripGreen, direct_json, hald, ktx2, spi3d, strip,
 };
+use onelight_lut::{DirectForm, Domain, Interpolation, Lut3d, Storage};
 
 use super::form::{Baked, BakedForm};
 use super::recipe::Form;
@@ -156,12 +156,12 @@ impl Baked {
             }
             FileFormat::Spi3d => return self.spi3d(comments),
             FileFormat::Ktx2 => {
-                write_ktx2(&mut bytes, self.plain_table(format)?, comments)?;
+                ktx2::write(&mut bytes, self.plain_table(format)?, comments)?;
                 "look.ktx2"
             }
             FileFormat::Strip => return self.strips(comments),
             FileFormat::Hald => {
-                write_hald(&mut bytes, self.coded_table(format)?, PngDepth::Sixteen, comments)?;
+                hald::write(&mut bytes, self.coded_table(format)?, PngDepth::Sixteen, comments)?;
                 "look_hald.png"
             }
             FileFormat::Json => return self.direct_json(comments),
@@ -180,11 +180,11 @@ impl Baked {
         let read = match format {
             FileFormat::Cube => Read::Cube(CubeFile::read(bytes)?),
             FileFormat::Clf => Read::Clf(ClfProcess::read(bytes)?),
-            FileFormat::Spi3d => table(read_spi3d(bytes)?),
+            FileFormat::Spi3d => table(spi3d::read(bytes)?),
             // 16-bit floats are all that the format changes.
             FileFormat::Ktx2 => table(Storage::F16.stored(self.plain_table(format)?)?),
-            FileFormat::Strip => table(read_strip(bytes, StripGreen::Down)?),
-            FileFormat::Hald => table(read_hald(bytes)?),
+            FileFormat::Strip => table(strip::read(bytes, StripGreen::Down)?),
+            FileFormat::Hald => table(hald::read(bytes)?),
             FileFormat::Json => Read::Direct(Box::new(direct_json::read(bytes)?)),
         };
         Ok(AsWritten { baked: self, read })
@@ -200,7 +200,7 @@ impl Baked {
 
     fn spi3d(&self, comments: &[String]) -> Result<Vec<BakedFile>, Error> {
         let mut bytes = Vec::new();
-        write_spi3d(&mut bytes, self.plain_table(FileFormat::Spi3d)?)?;
+        spi3d::write(&mut bytes, self.plain_table(FileFormat::Spi3d)?)?;
         let mut files = vec![BakedFile { name: "look.spi3d", bytes }];
         if let BakedForm::Plain(lut) = self.form() {
             let mut bytes = Vec::new();
@@ -215,17 +215,22 @@ impl Baked {
         let table = self.coded_table(FileFormat::Strip)?;
         let of = |(name, green)| {
             let mut bytes = Vec::new();
-            write_strip(&mut bytes, table, PngDepth::Sixteen, green, comments)?;
+            strip::write(&mut bytes, table, PngDepth::Sixteen, green, comments)?;
             Ok(BakedFile { name, bytes })
         };
-        [("look_strip_unreal.png", StripGreen::Down), ("look_strip_unity.png", StripGreen::Up)].map(of).into_iter().collect()
+        [("look_strip_unreal.png", StripGreen::Down), ("look_strip_unity.png", StripGreen::Up)]
+            .map(of)
+            .into_iter()
+            .collect()
     }
 
     fn direct_json(&self, comments: &[String]) -> Result<Vec<BakedFile>, Error> {
         let BakedForm::Direct(direct) = self.form() else {
             return Err(FileFormat::Json.cannot_hold(self.form().kind()));
         };
-        Ok(vec![BakedFile { name: "look.direct.json", bytes: direct_json::write(direct, comments)? }])
+        let mut bytes = Vec::new();
+        direct_json::write(&mut bytes, direct, comments)?;
+        Ok(vec![BakedFile { name: "look.direct.json", bytes }])
     }
 
     /// The table of a plain form.
