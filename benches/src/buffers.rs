@@ -3,9 +3,12 @@
 use onelight::Look;
 use onelight::spectra::BufferFormat;
 
+use crate::error::Result;
+
 /// A buffer and the level that mid grey is stored at.
-pub(crate) struct Case {
-    pub(crate) name: &'static str,
+pub struct Case {
+    /// The buffer, and the value that a light is stored at.
+    pub name: &'static str,
     format: BufferFormat,
     /// Stored value over scene value.
     scale: f64,
@@ -13,13 +16,13 @@ pub(crate) struct Case {
 
 impl Case {
     /// Scene light as it comes back from the buffer.
-    pub(crate) fn stored(&self, rgb: [f64; 3]) -> [f64; 3] {
+    pub fn stored(&self, rgb: [f64; 3]) -> [f64; 3] {
         self.format.quantise(rgb.map(|v| v * self.scale)).map(|v| v / self.scale)
     }
 }
 
 /// The buffers that are compared: as they are, and with the talk's scale factor for the small float.
-pub(crate) const CASES: [Case; 7] = [
+pub const CASES: [Case; 7] = [
     Case { name: "8 bit linear, white at 4", format: BufferFormat::Unorm8, scale: 0.25 },
     Case { name: "8 bit sRGB-coded, white at 4", format: BufferFormat::Unorm8Srgb, scale: 0.25 },
     Case { name: "float 7e3, grey at 0.18", format: BufferFormat::Float7e3, scale: 1.0 },
@@ -33,8 +36,11 @@ pub(crate) const CASES: [Case; 7] = [
 const RAMP_STOPS: (f64, f64) = (-8.0, 4.0);
 const RAMP_STEPS: u32 = 12_000;
 
-/// Largest difference between neighbours on a grey ramp after the buffer and the film.
-pub(crate) fn largest_step(case: &Case, film: &Look) -> anyhow::Result<f64> {
+/// Largest CIEDE2000 between neighbours on a grey ramp from -8 to +4 stops after the buffer and the film.
+///
+/// # Errors
+/// If the look's display has no white.
+pub fn largest_step(case: &Case, film: &Look) -> Result<f64> {
     let difference = film.difference()?;
     let (mut largest, mut last) = (0f64, None::<([f64; 3], [f64; 3])>);
     for i in 0..=RAMP_STEPS {

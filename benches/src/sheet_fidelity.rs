@@ -1,38 +1,40 @@
-//! Does it look like the film? What of a stock's sheet and of its known behaviour the simulation reproduces.
+//! How much of a stock's data sheet, and of its known behaviour, the simulation reproduces.
 
-use anyhow::Result;
 use onelight::film::{Density, LogExposure, PerLayer};
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Basis, DisplayDifference, Reconstruction, RgbSpace, SpectralShape, color_checker};
 use onelight::{Aim, Process, Reference, Stock, StockKind, stock, stock_ids};
 use serde::Serialize;
 
+use crate::error::Result;
+
 /// One camera film in its usual process.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct Likeness {
-    pub(crate) id: String,
+pub struct SheetFidelity {
+    /// The stock: `kodak-5207`.
+    pub id: String,
     /// Largest difference between the sheet's densities and those that a densitometer reads off the simulated grey scale.
-    pub(crate) curves: f64,
+    pub curves: f64,
     /// Largest difference between the toe of the curves and the densities of the spectral D-min; `None` for reversal film.
-    pub(crate) d_min: Option<f64>,
+    pub d_min: Option<f64>,
     /// Rms difference in density, within 400 to 700 nm, between the published neutral and the nearest sum of D-min and dyes.
-    pub(crate) neutral: Option<f64>,
+    pub neutral: Option<f64>,
     /// Densities of a grey card above D-min, red, green, blue; `None` for reversal film.
-    pub(crate) grey: Option<[f64; 3]>,
+    pub grey: Option<[f64; 3]>,
     /// Slope of log10 display luminance over log10 exposure at mid grey, in neutral and in sheet aim.
-    pub(crate) gamma: (f64, f64),
+    pub gamma: (f64, f64),
     /// Largest C* of a grey from -3 to +3 stops, and where it is.
-    pub(crate) tint: (f64, f64),
+    pub tint: (f64, f64),
     /// Chroma of the 18 colours of the chart over that of the scene, mean.
-    pub(crate) chroma: f64,
+    pub chroma: f64,
     /// Their hue against the scene's, in degrees: mean of the sizes, and the largest with its patch.
-    pub(crate) hue: (f64, f64, String),
+    pub hue: (f64, f64, String),
     /// What stands in for figures that the sheet does not show.
-    pub(crate) derived: Vec<&'static str>,
+    pub derived: Vec<&'static str>,
 }
 
 /// Every camera film: negatives on 2383, reversal film as it is.
-pub(crate) fn all() -> Result<Vec<Likeness>> {
+pub fn all() -> Result<Vec<SheetFidelity>> {
     let mut found = Vec::new();
     for id in stock_ids() {
         let film = stock(id)?;
@@ -43,11 +45,11 @@ pub(crate) fn all() -> Result<Vec<Likeness>> {
     Ok(found)
 }
 
-fn of(film: &Stock) -> Result<Likeness> {
+fn of(film: &Stock) -> Result<SheetFidelity> {
     let process = Process::for_camera(film.id())?;
     let reference = process.compile()?;
     let sheet = Process { aim: Aim::Sheet, ..process }.compile()?;
-    Ok(Likeness {
+    Ok(SheetFidelity {
         id: film.id().to_owned(),
         curves: curves(film, &reference)?,
         d_min: d_min(film)?,
@@ -163,7 +165,7 @@ fn grey_above_d_min(film: &Stock) -> Result<Option<[f64; 3]>> {
 }
 
 /// The table as Markdown.
-pub(crate) fn table(found: &[Likeness]) -> String {
+pub fn table(found: &[SheetFidelity]) -> String {
     let mut text =
         "| film | curves | D-min | neutral | grey card | gamma | tint of greys | chroma | hue, mean | hue, largest | stands in |\n\
                     |---|---|---|---|---|---|---|---|---|---|---|\n"
@@ -214,8 +216,8 @@ mod tests {
     #[test]
     fn vision_negatives_on_2383_have_the_published_gamma() {
         for id in ["kodak-5203", "kodak-5207", "kodak-5213", "kodak-5219", "kodak-5277"] {
-            let likeness = of(&stock(id).unwrap()).unwrap();
-            assert!((1.5..=1.8).contains(&likeness.gamma.1), "{id}: {:?}", likeness.gamma);
+            let fidelity = of(&stock(id).unwrap()).unwrap();
+            assert!((1.5..=1.8).contains(&fidelity.gamma.1), "{id}: {:?}", fidelity.gamma);
         }
     }
 

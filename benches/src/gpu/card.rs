@@ -1,6 +1,5 @@
 //! The adapter, and the clock on it.
 
-use anyhow::{Context, Result, bail};
 use onelight_gpu::wgpu;
 use pollster::block_on;
 use wgpu::{
@@ -8,6 +7,8 @@ use wgpu::{
     Instance, InstanceDescriptor, Limits, MapMode, PollType, PowerPreference, QuerySet, QuerySetDescriptor, QueryType,
     Queue, RequestAdapterOptions,
 };
+
+use crate::error::{Error, Result};
 
 /// Bytes of a buffer that is copied to learn the card's copy bandwidth: far more than its caches hold.
 const COPIED_BYTES: u64 = 256 << 20;
@@ -37,14 +38,15 @@ impl Card {
         let instance = Instance::new(InstanceDescriptor::new_without_display_handle());
         let options =
             RequestAdapterOptions { power_preference: PowerPreference::HighPerformance, ..Default::default() };
-        let adapter = block_on(instance.request_adapter(&options)).context("no graphics card was found")?;
+        let adapter = block_on(instance.request_adapter(&options));
+        let adapter = adapter.map_err(|error| Error::of("no graphics card was found", error))?;
         let info = adapter.get_info();
         let is_software = info.device_type == DeviceType::Cpu;
         if is_software && !allow_software {
-            bail!(
+            return Err(Error::new(format!(
                 "adapter: found {}, which is software, expected a graphics card (or --software to try the command)",
                 info.name
-            );
+            )));
         }
         let (device, queue) = block_on(adapter.request_device(&descriptor(&adapter)?))?;
         let clock = Clock::new(&device, &queue);
@@ -71,7 +73,8 @@ impl Card {
         self.queue.submit([encoder.finish()]);
         buffer.slice(..).map_async(MapMode::Read, |_| ());
         self.device.poll(PollType::wait_indefinitely())?;
-        let bytes = buffer.slice(..).get_mapped_range()?.to_vec();
+        let bytes = buffer.slice(..).get_mapped_range();
+        let bytes = bytes.map_err(|error| Error::of("what the card made cannot be read", error))?.to_vec();
         buffer.unmap();
         Ok(bytes)
     }
@@ -102,7 +105,8 @@ impl Card {
 fn descriptor(adapter: &Adapter) -> Result<DeviceDescriptor<'static>> {
     let clocks = Features::TIMESTAMP_QUERY | Features::TIMESTAMP_QUERY_INSIDE_ENCODERS;
     if !adapter.features().contains(clocks) {
-        bail!("{}: has no timestamps between passes, expected some to time with", adapter.get_info().name);
+        let name = adapter.get_info().name;
+        return Err(Error::new(format!("{name}: has no timestamps between passes, expected some to time with")));
     }
     let max_buffer_size = adapter.limits().max_buffer_size.min(COPIED_BYTES);
     Ok(DeviceDescriptor {

@@ -1,6 +1,5 @@
 //! How far what the card makes lies from the film.
 
-use anyhow::Result;
 use onelight::Reference;
 use onelight::lut::SceneSampler;
 use onelight_gpu::{FilmPass, Form, LookSettings, wgpu};
@@ -9,6 +8,7 @@ use wgpu::{BufferDescriptor, BufferUsages, TexelCopyBufferInfo, TexelCopyBufferL
 
 use super::card::Card;
 use super::pictures::texture;
+use crate::error::Result;
 
 /// Colours that are compared, as a picture.
 const SIZE: [u32; 2] = [256, 256];

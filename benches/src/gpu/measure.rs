@@ -1,12 +1,12 @@
 //! Times of passes over pictures that take turns.
 
-use anyhow::Result;
 use onelight_gpu::{Fetch, FilmPass, Form, LookSettings, wgpu};
 use wgpu::TextureFormat;
 
 use super::card::Card;
 use super::copy::Copy;
 use super::pictures::{Sources, Targets};
+use crate::error::Result;
 
 /// How long a timed run of passes lasts, ms, and how many runs each pass gets, in turns with the others.
 const RUN_MS: f64 = 40.0;

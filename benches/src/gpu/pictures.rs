@@ -2,7 +2,6 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use anyhow::Result;
 use onelight_gpu::wgpu;
 use rayon::prelude::*;
 use wgpu::{
@@ -11,7 +10,7 @@ use wgpu::{
 };
 
 use super::card::Card;
-use crate::truth;
+use crate::error::Result;
 
 /// Pairs of pictures that passes take turns over.
 const PAIRS: usize = 6;
@@ -64,7 +63,7 @@ impl Targets {
 
 /// The scene that all pictures are made of.
 pub(super) fn scene() -> Result<Vec<[f32; 3]>> {
-    truth::rgb(SCENE)
+    Ok(onelight_fixtures::scene_rgb(SCENE)?)
 }
 
 pub(super) fn texture(card: &Card, format: TextureFormat, size: [u32; 2], usage: TextureUsages) -> Texture {

@@ -1,23 +1,20 @@
-//! The command: what is measured, and how it is said.
+//! What is measured, and how it is written.
 
 use std::fmt::Write as _;
-use std::time::{SystemTime, UNIX_EPOCH};
 
-use anyhow::{Result, bail};
 use onelight::lut::{DirectForm, Interpolation, PlainLut, Storage, StructuredLut, bake};
 use onelight::{Process, Reference, StructuredSettings};
 use onelight_gpu::{Fetch, LookSettings, wgpu};
 use serde_json::{Value, json};
 use wgpu::TextureFormat::{self, Rgb10a2Unorm, Rgba8Unorm, Rgba8UnormSrgb, Rgba16Float, Rgba32Float};
 
-use super::Arguments;
 use super::card::Card;
 use super::difference::{Difference, difference};
 use super::measure::{Subject, times};
 use super::pictures::{Sources, scene};
-use crate::compiled::{Fitted, fitted_to};
-use crate::whole::write_whole;
-use crate::{Report, folders};
+use crate::baker::Baker;
+use crate::calendar::{date, now};
+use crate::error::Result;
 
 const SIZES: [[u32; 2]; 2] = [[1920, 1080], [3840, 2160]];
 const INPUTS: [TextureFormat; 2] = [Rgba16Float, Rgba32Float];
@@ -48,45 +45,55 @@ struct Forms {
     direct: DirectForm,
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<Report> {
-    let card = Card::open(arguments.software)?;
-    let folder = match &arguments.out {
-        Some(folder) => folders::make(folder)?,
-        None => folders::output("")?,
-    };
+/// What is known of a measured pass besides its times.
+struct Facts {
+    /// `structured, tetrahedral`
+    name: String,
+    /// `plain`, `structured` or `direct`
+    form: String,
+    table_size: Option<usize>,
+    difference: Difference,
+}
+
+/// Times of the forms on a graphics card beside a plain copy, and their differences from the film.
+pub struct Summary {
+    card: Card,
+    look: String,
+    bandwidth: f64,
+    reached: f64,
+    facts: Vec<Facts>,
+    rows: Vec<Row>,
+}
+
+/// Measures the default look on the fastest adapter; `software` allows one that is none, on which a few passes are run.
+///
+/// # Errors
+/// If there is no adapter, it is software and that is not allowed, it has no clock, or it fails.
+pub fn measure(software: bool, baker: &dyn Baker) -> Result<Summary> {
+    let card = Card::open(software)?;
     let process = Process::default();
     let film = process.compile()?;
-    let forms = Forms::new(&film)?;
+    let forms = Forms::new(&film, baker)?;
     let subjects = forms.subjects();
-    let mut differences = Vec::new();
-    for Subject { form, settings } in &subjects {
-        differences.push(difference(&card, &film, *form, settings)?);
+    let mut facts = Vec::new();
+    for subject @ Subject { form, settings } in &subjects {
+        facts.push(Facts {
+            name: subject.name(),
+            form: form.kind().to_string(),
+            table_size: subject.table_size(),
+            difference: difference(&card, &film, *form, settings)?,
+        });
     }
     let bandwidth = card.copy_bandwidth()?;
     let rows = rows(&card, &subjects)?;
     let reached =
         rows.iter().find(|row| row.is_frame(&card) && row.subject.is_none()).map_or(0.0, Row::bandwidth) / bandwidth;
-
-    let summary =
-        Summary { card: &card, look: process.name(), bandwidth, reached, subjects: &subjects, differences, rows };
-    let json = summary.json();
-    let path = folder.join("gpu.json");
-    write_whole(&path, |file| Ok(serde_json::to_writer_pretty(file, &json)?))?;
-    let mut text = summary.text();
-    let _ = writeln!(text, "{}", folders::shown(&path));
-    if reached < LEAST_BANDWIDTH && !card.is_software {
-        bail!(
-            "{text}copy pass: found {:.0} % of the card's copy bandwidth, expected {:.0} %",
-            100.0 * reached,
-            100.0 * LEAST_BANDWIDTH
-        );
-    }
-    Ok(Report { text, json, as_json: arguments.json })
+    Ok(Summary { card, look: process.name(), bandwidth, reached, facts, rows })
 }
 
 impl Forms {
-    fn new(film: &Reference) -> Result<Self> {
-        let shaper = fitted_to(&onelight::Look::from(film.clone()), &Fitted::Look { stops: None })?;
+    fn new(film: &Reference, baker: &dyn Baker) -> Result<Self> {
+        let shaper = baker.shaper(&onelight::Look::from(film.clone()), None)?;
         let table = bake(PLAIN_SIZE, &shaper, |rgb| film.develop(rgb), |_| {})?;
         let settings = StructuredSettings { size: STRUCTURED_SIZE, ..Default::default() };
         Ok(Self {
@@ -153,28 +160,35 @@ impl Row {
     }
 }
 
-struct Summary<'a> {
-    card: &'a Card,
-    look: String,
-    bandwidth: f64,
-    reached: f64,
-    subjects: &'a [Subject<'a>],
-    differences: Vec<Difference>,
-    rows: Vec<Row>,
-}
-
-impl Summary<'_> {
-    fn name(&self, row: &Row) -> String {
-        row.subject.and_then(|i| self.subjects.get(i)).map_or_else(|| "copy".to_owned(), Subject::name)
+impl Summary {
+    /// A sentence where the copy pass is so far from the card's copy bandwidth that ratios to it mean nothing; software is excused.
+    pub fn fault(&self) -> Option<String> {
+        let is_slow = self.reached < LEAST_BANDWIDTH && !self.card.is_software;
+        is_slow.then(|| {
+            format!(
+                "copy pass: found {:.0} % of the card's copy bandwidth, expected {:.0} %",
+                100.0 * self.reached,
+                100.0 * LEAST_BANDWIDTH
+            )
+        })
     }
 
-    fn text(&self) -> String {
+    fn facts(&self, row: &Row) -> Option<&Facts> {
+        row.subject.and_then(|i| self.facts.get(i))
+    }
+
+    fn name(&self, row: &Row) -> &str {
+        self.facts(row).map_or("copy", |facts| &facts.name)
+    }
+
+    /// Every pass, a line each.
+    pub fn text(&self) -> String {
         let mut text = String::new();
-        let Card { name, driver, .. } = self.card;
+        let Card { name, driver, .. } = &self.card;
         let _ = writeln!(text, "{name}, {driver}, {}: copies {:.0} GB/s", today(), self.bandwidth / 1e9);
         let _ = writeln!(text, "copy pass: {:.0} % of that", 100.0 * self.reached);
-        for (subject, Difference { mean, max }) in self.subjects.iter().zip(&self.differences) {
-            let _ = writeln!(text, "{:26} dE from the film: mean {mean:.3}, max {max:.3}", subject.name());
+        for Facts { name, difference: Difference { mean, max }, .. } in &self.facts {
+            let _ = writeln!(text, "{:26} dE from the film: mean {mean:.3}, max {max:.3}", name);
         }
         let mut group = None;
         for row in &self.rows {
@@ -188,9 +202,10 @@ impl Summary<'_> {
         text
     }
 
-    fn json(&self) -> Value {
+    /// Everything as one object, as `gpu.json` holds it.
+    pub fn json(&self) -> Value {
         let passes: Vec<Value> = self.rows.iter().map(|row| self.row(row)).collect();
-        let frame = self.rows.iter().filter(|row| row.is_frame(self.card) && row.subject.is_some());
+        let frame = self.rows.iter().filter(|row| row.is_frame(&self.card) && row.subject.is_some());
         json!({
             "card": self.card.name,
             "driver": self.card.driver,
@@ -204,13 +219,13 @@ impl Summary<'_> {
     }
 
     fn row(&self, row: &Row) -> Value {
-        let subject = row.subject.and_then(|i| self.subjects.get(i));
-        let difference = row.subject.and_then(|i| self.differences.get(i));
+        let facts = self.facts(row);
+        let difference = facts.map(|facts| facts.difference);
         json!({
-            "form": subject.map_or_else(|| "copy".to_owned(), |subject| subject.form.kind().to_string()),
+            "form": facts.map_or("copy", |facts| &facts.form),
             "pass": self.name(row),
             "name": self.look,
-            "size": subject.and_then(Subject::table_size),
+            "size": facts.and_then(|facts| facts.table_size),
             "width": row.size[0],
             "height": row.size[1],
             "input": format!("{:?}", row.input),
@@ -227,39 +242,7 @@ impl Summary<'_> {
     }
 }
 
-/// The date in UTC: `2026-03-01`.
+/// `2026-03-01`, UTC
 fn today() -> String {
-    let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
-    date(seconds / 86_400)
-}
-
-/// The date so many days after 1970-01-01, by years of March to February, whose leap day is the last.
-fn date(days: u64) -> String {
-    // From 0000-03-01.
-    let days = days + 719_468;
-    let (era, day) = (days / 146_097, days % 146_097);
-    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
-    let day = day - (365 * year + year / 4 - year / 100);
-    let month = (5 * day + 2) / 153;
-    let day = day - (153 * month + 2) / 5 + 1;
-    let (month, next) = if month < 10 { (month + 3, 0) } else { (month - 9, 1) };
-    format!("{:04}-{month:02}-{day:02}", 400 * era + year + next)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn days_are_dates() {
-        for (days, expected) in [
-            (0, "1970-01-01"),
-            (59, "1970-03-01"),
-            (11_016, "2000-02-29"),
-            (11_017, "2000-03-01"),
-            (20_453, "2025-12-31"),
-        ] {
-            assert_eq!(date(days), expected);
-        }
-    }
+    date(now())
 }

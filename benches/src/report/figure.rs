@@ -5,7 +5,7 @@ use onelight::Process;
 use super::axis::Axis;
 use super::forms::Kind;
 use super::measure::{Look, Row};
-use super::outside::{Elsewhere, Peer};
+use super::peers::{Elsewhere, Peer};
 use super::plot::{self, Chart, Filling, Guide, Line, Marker, Point, Series};
 use super::stopwatch::Timing;
 use super::studies::{CurveRow, GridRow, Measured};
@@ -240,12 +240,12 @@ pub(super) fn peers(rows: &[Peer]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::measure::Error;
     use super::*;
+    use crate::baker::Difference;
 
     fn row(kind: Kind, detail: &str, ns: f64, max: f64) -> Row {
         let time = Timing { ns, median_ns: ns };
-        let error = Error { mean: max / 10.0, max, ..Error::default() };
+        let error = Difference { mean: max / 10.0, max, ..Difference::default() };
         Row::bare(kind, detail, time, error)
     }
 

@@ -1,11 +1,13 @@
 //! The forms that are compared, and what they are called.
 
-use anyhow::{Context, Result};
-use onelight::lut::Storage;
-use onelight::{DirectSettings, Entries, Look, Nodes, Process, Reference, TableCoding, Word};
+use onelight::lut::{Interpolation, Storage};
+use onelight::{DirectSettings, Entries, Look, Nodes, Reference, StructuredSettings, TableCoding, Word};
 use serde::Serialize;
 
-use crate::compiled::{Compiled, Form, Recipe, ShaperChoice};
+use super::scope::Scope;
+use crate::baker::{Baker, PlainShaper, PlainTable};
+use crate::error::Result;
+use crate::form::Form;
 
 /// What a figure belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
@@ -46,15 +48,6 @@ impl Kind {
     }
 }
 
-/// How much is measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum Scope {
-    Full,
-    /// Fewer forms, fewer colours, a smaller picture: to see that all works.
-    Quick,
-}
-
 /// One form of a look, with the facts that a reader chooses by.
 pub(super) struct Made {
     pub(super) kind: Kind,
@@ -67,7 +60,7 @@ pub(super) struct Made {
     pub(super) nodes: Option<[usize; 2]>,
     /// Of all tables and curves.
     pub(super) bytes: usize,
-    pub(super) form: Compiled,
+    pub(super) form: Form,
     /// Which time it shares: on a processor all storages are read as 32-bit floats.
     pub(super) timed: usize,
 }
@@ -78,6 +71,8 @@ const TERM: usize = 24;
 
 const STORED_DENSITY: [Storage; 3] = [Storage::F32, Storage::F16, Storage::Unorm16];
 const STORED_DISPLAY: [Storage; 3] = [Storage::F16, Storage::Unorm10, Storage::Unorm8];
+/// Nodes of the plain table whose range ends at +6 stops.
+const PLAIN_SIZE: usize = 33;
 /// Largest table of display-coded entries.
 const DISPLAY_SIZE: usize = 32;
 const GRIDS_NM: [usize; 5] = [1, 2, 5, 10, 20];
@@ -85,7 +80,7 @@ const GRIDS_NM: [usize; 5] = [1, 2, 5, 10, 20];
 const FITTED: [[usize; 2]; 9] = [[3, 4], [3, 5], [4, 6], [4, 7], [4, 8], [5, 9], [5, 10], [6, 12], [7, 14]];
 
 /// All forms of a look, those of one time next to each other.
-pub(super) fn all(film: &Reference, process: &Process, scope: Scope, done: impl Fn()) -> Result<Vec<Made>> {
+pub(super) fn all(film: &Reference, scope: Scope, baker: &dyn Baker, done: impl Fn()) -> Result<Vec<Made>> {
     let look = Look::from(film.clone());
     let (plain, structured): (&[usize], &[usize]) = match scope {
         Scope::Full => (&[17, 33, 65], &[8, 16, 24, 32, 48, 64]),
@@ -93,29 +88,38 @@ pub(super) fn all(film: &Reference, process: &Process, scope: Scope, done: impl 
     };
     let mut made = Made::direct(film, scope)?;
     done();
-    let usual = Recipe { entries: Entries::Fitted, ..Recipe::usual(Form::Plain) };
-    let talk = Recipe { size: 32, shaper: ShaperChoice::Gotanda, entries: Entries::Sampled, ..usual };
-    let timed = |made: &[Made]| made.last().map_or(0, |last| last.timed + 1);
-    let mut add = |kind, recipe: Recipe, stored: &[Storage], detail: &str| -> Result<()> {
-        let group = timed(&made);
-        made.extend(Made::stored(&look, process, (kind, detail), &recipe, stored)?.map(|m| Made { timed: group, ..m }));
+    let mut add = |kind, form: Form, stored: &[Storage], coding: Option<TableCoding>, detail: &str| -> Result<()> {
+        let group = made.last().map_or(0, |last| last.timed + 1);
+        let stored = Made::stored((kind, detail), &form, coding, stored)?;
+        made.extend(stored.into_iter().map(|m| Made { timed: group, ..m }));
         done();
         Ok(())
     };
-    add(Kind::Talk, talk, &[Storage::F16], "")?;
+    let of_plain = |size, stops| {
+        let table = PlainTable { size, shaper: PlainShaper::Fitted { stops }, entries: Entries::Fitted };
+        table.bake(&look, baker).map(Form::Plain)
+    };
+    let talk = PlainTable { size: 32, shaper: PlainShaper::Gotanda, entries: Entries::Sampled };
+    add(Kind::Talk, Form::Plain(talk.bake(&look, baker)?), &[Storage::F16], None, "")?;
     for &size in plain {
         let all = [&STORED_DENSITY[..], &STORED_DISPLAY[1..]].concat();
-        add(Kind::Plain, Recipe { size, ..usual }, &all, "")?;
+        add(Kind::Plain, of_plain(size, None)?, &all, None, "")?;
     }
     if scope == Scope::Full {
-        add(Kind::Plain, Recipe { stops: Some(6.0), ..usual }, &[Storage::F16], " to +6")?;
+        add(Kind::Plain, of_plain(PLAIN_SIZE, Some(6.0))?, &[Storage::F16], None, " to +6")?;
     }
-    let usual = Recipe::usual(Form::Structured);
+    let of_structured = |size, coding| -> Result<Form> {
+        let settings =
+            StructuredSettings { size, interpolation: Interpolation::Tetrahedral, entries: Entries::Fitted, coding };
+        Ok(Form::Structured(Box::new(film.structured(&settings)?)))
+    };
     for &size in structured {
-        add(Kind::Structured, Recipe { size, ..usual }, &STORED_DENSITY, "")?;
+        let coding = TableCoding::Density;
+        add(Kind::Structured, of_structured(size, coding)?, &STORED_DENSITY, Some(coding), "")?;
         // Finer tables gain nothing from entries as coarse as these.
         if size <= DISPLAY_SIZE {
-            add(Kind::Structured, Recipe { size, coding: TableCoding::Display, ..usual }, &STORED_DISPLAY, " display")?;
+            let coding = TableCoding::Display;
+            add(Kind::Structured, of_structured(size, coding)?, &STORED_DISPLAY, Some(coding), " display")?;
         }
     }
     Ok(made)
@@ -132,35 +136,34 @@ pub(super) fn steps(scope: Scope) -> u64 {
 impl Made {
     /// One table in several storages: fitted once.
     fn stored(
-        look: &Look,
-        process: &Process,
         (kind, detail): (Kind, &str),
-        recipe: &Recipe,
+        exact: &Form,
+        coding: Option<TableCoding>,
         stored: &[Storage],
-    ) -> Result<impl Iterator<Item = Self>> {
-        let exact = Compiled::new(look, process, recipe, None)?;
-        let curves = match &exact {
-            Compiled::Structured(lut) => {
+    ) -> Result<Vec<Self>> {
+        let curves = match exact {
+            Form::Structured(lut) => {
                 lut.parts().curves.size() + lut.parts().mix.as_ref().map_or(0, |mix| mix.curves.size())
             }
-            Compiled::Plain(_) | Compiled::Coded { .. } | Compiled::Direct(_) => 0,
+            Form::Plain(_) | Form::Direct(_) => 0,
         };
-        let table = exact.table().context("a form without a table has no storage")?;
+        let Some(table) = exact.table() else { return Ok(Vec::new()) };
+        let size = table.size();
         let mut made = Vec::new();
         for &storage in stored {
             made.push(Self {
                 kind,
-                detail: format!("{}{detail}, {}", recipe.size, short(storage)),
-                size: Some(recipe.size),
+                detail: format!("{size}{detail}, {}", short(storage)),
+                size: Some(size),
                 storage: Some(storage),
-                coding: (kind == Kind::Structured).then_some(recipe.coding),
+                coding,
                 nodes: None,
-                bytes: storage.bytes() * recipe.size.pow(3) + curves * CURVE_POINT,
+                bytes: storage.bytes() * size.pow(3) + curves * CURVE_POINT,
                 form: exact.with_table(storage.stored(table)?),
                 timed: 0,
             });
         }
-        Ok(made.into_iter())
+        Ok(made)
     }
 
     /// Even grids of wavelengths, and fitted exponentials.
@@ -184,7 +187,7 @@ impl Made {
                 coding: None,
                 nodes: Some(terms),
                 bytes: terms.iter().sum::<usize>() * TERM + curves * CURVE_POINT,
-                form: Compiled::Direct(Box::new(form)),
+                form: Form::Direct(Box::new(form)),
                 timed,
             });
         }

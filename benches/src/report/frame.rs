@@ -1,10 +1,9 @@
 //! The picture that all forms are timed on.
 
-use anyhow::{Result, ensure};
 use onelight::lut::{Channels, Pixels};
 use rayon::prelude::*;
 
-use crate::truth;
+use crate::error::{Error, Result};
 
 /// Side by side and on top of each other, each pixel of the rendered scene becomes so many.
 const ENLARGED: usize = 4;
@@ -20,8 +19,10 @@ pub(super) struct Frame {
 impl Frame {
     /// A frame of four times `rendered` pixels along each side.
     pub(super) fn new(rendered: (usize, usize)) -> Result<Self> {
-        ensure!(rendered.0 > 0 && rendered.1 > 0, "the frame to time on has no pixels, expected at least one");
-        let scene = truth::rgb(rendered)?;
+        if rendered.0 == 0 || rendered.1 == 0 {
+            return Err(Error::new("the frame to time on has no pixels, expected at least one"));
+        }
+        let scene = onelight_fixtures::scene_rgb(rendered)?;
         let size = [rendered.0 * ENLARGED, rendered.1 * ENLARGED];
         let mut samples = vec![0.0; size[0] * size[1] * 3];
         samples.par_chunks_mut(size[0] * 3).enumerate().for_each(|(y, row)| {

@@ -1,17 +1,19 @@
 //! Speed and error of every form of a look.
 
-use anyhow::Result;
-use onelight::lut::{Certificate, Law, Search};
-use onelight::{Process, Reference, Word, WorkingSpace, stock};
+use onelight::lut::Law;
+use onelight::{Process, Reference, Word, stock};
 use serde::Serialize;
 
-use super::forms::{self, Kind, Made, Scope};
+use super::forms::{self, Kind, Made};
 use super::frame::Frame;
-use super::stopwatch::{Pass, Timing, interleaved, mapping};
-use crate::certificate::{Measure, to_six_stops};
-use crate::progress::bar;
+use super::scope::Scope;
+use super::stopwatch::{Pass, Timing, copying, interleaved, mapping};
+use crate::baker::{Baker, Difference};
+use crate::error::Result;
+use crate::form::Form;
+use crate::progress::{OnProgress, Steps};
 
-/// A form and what it is worth.
+/// A form with its speed and its difference from the film.
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct Row {
     pub(super) kind: Kind,
@@ -26,40 +28,12 @@ pub(super) struct Row {
     pub(super) bytes: Option<usize>,
     /// On one thread.
     pub(super) time: Timing,
-    pub(super) error: Error,
-}
-
-/// CIEDE2000 from the reference.
-#[derive(Debug, Clone, Copy, Default, Serialize)]
-pub(super) struct Error {
-    pub(super) mean: f64,
-    /// The mean of the worst of five bands of four stops.
-    pub(super) worst_band: f64,
-    pub(super) p99: f64,
-    /// The largest found, followed uphill.
-    pub(super) max: f64,
-    /// The same over the bands up to +6 stops, not followed uphill.
-    pub(super) mean_to_six: f64,
-    pub(super) max_to_six: f64,
-}
-
-impl Error {
-    fn of(certificate: &Certificate) -> Self {
-        let (mean_to_six, max_to_six) = to_six_stops(certificate);
-        Self {
-            mean: certificate.overall.mean,
-            worst_band: certificate.headline_mean,
-            p99: certificate.overall.p99,
-            max: certificate.max_found,
-            mean_to_six,
-            max_to_six,
-        }
-    }
+    pub(super) error: Difference,
 }
 
 impl Row {
     /// What is neither stored nor made of terms.
-    pub(super) fn bare(kind: Kind, detail: &str, time: Timing, error: Error) -> Self {
+    pub(super) fn bare(kind: Kind, detail: &str, time: Timing, error: Difference) -> Self {
         let detail = detail.to_owned();
         Self { kind, detail, size: None, storage: None, coding: None, nodes: None, bytes: None, time, error }
     }
@@ -88,7 +62,7 @@ pub(super) struct Prepared {
     title: String,
     pub(super) film: Reference,
     pub(super) made: Vec<Made>,
-    errors: Vec<Error>,
+    errors: Vec<Difference>,
 }
 
 /// Colours that errors are measured on.
@@ -101,24 +75,17 @@ pub(super) fn law(scope: Scope) -> Law {
 }
 
 impl Prepared {
-    /// Makes all forms of a process and measures their errors.
-    pub(super) fn new(process: &Process, scope: Scope) -> Result<Self> {
+    /// Makes all forms of a process and measures their differences from the film.
+    pub(super) fn new(process: &Process, scope: Scope, baker: &dyn Baker, progress: OnProgress<'_>) -> Result<Self> {
         let film = process.compile()?;
-        let progress = bar("making forms", forms::steps(scope));
-        let made = forms::all(&film, process, scope, || progress.inc(1))?;
-        progress.finish_and_clear();
+        let steps = Steps::new("making forms", forms::steps(scope), progress);
+        let made = forms::all(&film, scope, baker, || steps.step())?;
+        drop(steps);
         let look = onelight::Look::from(film.clone());
-        let measure = Measure::new(&look, process)?;
-        let progress = bar("certifying", 1 + made.len() as u64);
-        let samples = measure.samples(&law(scope), WorkingSpace::Srgb)?;
-        progress.inc(1);
-        let mut errors = Vec::new();
-        for made in &made {
-            let certificate = measure.certify(&samples, |rgb| made.form.apply(rgb), Search::Ascent)?;
-            errors.push(Error::of(&certificate));
-            progress.inc(1);
-        }
-        progress.finish_and_clear();
+        let steps = Steps::new("certifying", 1 + made.len() as u64, progress);
+        let forms: Vec<&Form> = made.iter().map(|made| &made.form).collect();
+        let errors = baker.certify(process, &look, &law(scope), &forms, &|| steps.step())?;
+        drop(steps);
         Ok(Self { process: process.clone(), title: title(process)?, film, made, errors })
     }
 
@@ -149,7 +116,7 @@ impl Prepared {
             })
         });
         let reference = times.last();
-        let reference = reference.map(|&time| Row::bare(Kind::Reference, "float64, 1 nm", time, Error::default()));
+        let reference = reference.map(|&time| Row::bare(Kind::Reference, "float64, 1 nm", time, Difference::default()));
         let mut rows: Vec<Row> = rows.chain(reference).collect();
         rows.sort_by_key(|row| row.kind);
         Look { name: self.process.name(), title: self.title.clone(), process: self.process.clone(), rows }
@@ -165,7 +132,12 @@ fn title(process: &Process) -> Result<String> {
 }
 
 /// Times all forms of all looks together; the last time is that of a copy.
-pub(super) fn timed(looks: &[Prepared], frame: &Frame, rounds: usize) -> Result<(Vec<Look>, Timing)> {
+pub(super) fn timed(
+    looks: &[Prepared],
+    frame: &Frame,
+    rounds: usize,
+    progress: OnProgress<'_>,
+) -> Result<(Vec<Look>, Timing)> {
     let mut passes: Vec<Pass> = Vec::new();
     let mut ranges = Vec::new();
     for look in looks {
@@ -173,10 +145,10 @@ pub(super) fn timed(looks: &[Prepared], frame: &Frame, rounds: usize) -> Result<
         passes.extend(look.passes(frame));
         ranges.push(from..passes.len());
     }
-    passes.push(super::stopwatch::copying(frame));
-    let progress = bar("timing", rounds as u64);
-    let times = interleaved(&passes, frame, 1, rounds, || progress.inc(1))?;
-    progress.finish_and_clear();
+    passes.push(copying(frame));
+    let steps = Steps::new("timing", rounds as u64, progress);
+    let times = interleaved(&passes, frame, 1, rounds, || steps.step())?;
+    drop(steps);
     let measured = looks.iter().zip(ranges).map(|(look, range)| look.look(&times[range])).collect();
     Ok((measured, times[times.len() - 1]))
 }

@@ -3,10 +3,12 @@
 use std::fmt::Write as _;
 
 use super::axis::Axis;
+use super::contents::Contents;
 use super::figure::{self, Which};
 use super::plot::{Chart, SIZE};
+use super::scope::Scope;
 use super::text::{bytes, escaped, figure as written};
-use super::{Contents, forms::Scope, table, words};
+use super::{table, words};
 
 const CHART_CSS: &str = include_str!("chart.css");
 const PAGE_CSS: &str = include_str!("page.css");

@@ -1,15 +1,9 @@
 //! What other commands measured: forms on a graphics card, and other programs on the same work.
 
-use std::fs::File;
-use std::io::{ErrorKind, Read};
-use std::path::Path;
-
-use anyhow::{Context, Result, anyhow, bail};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// Longest file that is read.
-const MAX_BYTES: u64 = 4 << 20;
+use crate::error::{Error, Result};
 
 /// A form on a graphics card: a row of `gpu.json`.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -98,17 +92,31 @@ impl Peer {
     }
 }
 
-/// All that other commands measured.
+/// All that other commands measured. What is not there was not measured.
 #[derive(Debug, Default, Serialize)]
-pub(super) struct Elsewhere {
+pub struct Elsewhere {
     pub(super) cards: Vec<OnCard>,
     pub(super) peers: Vec<Peer>,
 }
 
 impl Elsewhere {
-    /// Reads `gpu.json` and `peers.json` in a folder; what is not there was not measured.
-    pub(super) fn read(folder: &Path) -> Result<Self> {
-        Ok(Self { cards: on_cards(&folder.join("gpu.json"))?, peers: peers(&folder.join("peers.json"))? })
+    /// With the rows of a `gpu.json`, as `gpu-bench` writes it; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// If it holds no rows, or other numbers than times above 0 and differences of 0 or more.
+    pub fn with_cards(self, name: &str, text: &str) -> Result<Self> {
+        let rows: Vec<OnCard> = rows(name, text)?;
+        let cards = checked(name, rows, OnCard::is_drawable, "times above 0 and differences of 0 or more")?;
+        Ok(Self { cards, ..self })
+    }
+
+    /// With the rows of a `peers.json`, as `benches/peers/run.py` writes it; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// If it holds no rows, or times that are not above 0.
+    pub fn with_peers(self, name: &str, text: &str) -> Result<Self> {
+        let peers = checked(name, rows(name, text)?, Peer::is_drawable, "times above 0")?;
+        Ok(Self { peers, ..self })
     }
 
     /// What was measured of a look on graphics cards.
@@ -117,72 +125,45 @@ impl Elsewhere {
     }
 }
 
-/// The rows of `gpu.json`; none where there is no such file.
-fn on_cards(path: &Path) -> Result<Vec<OnCard>> {
-    let rows: Vec<OnCard> = rows(path)?;
-    checked(path, rows, OnCard::is_drawable, "times above 0 and differences of 0 or more")
-}
-
-/// The rows of `peers.json`; none where there is no such file.
-fn peers(path: &Path) -> Result<Vec<Peer>> {
-    let rows: Vec<Peer> = rows(path)?;
-    checked(path, rows, Peer::is_drawable, "times above 0")
-}
-
-fn checked<T>(path: &Path, rows: Vec<T>, good: impl Fn(&T) -> bool, expected: &str) -> Result<Vec<T>> {
+fn checked<T>(name: &str, rows: Vec<T>, good: impl Fn(&T) -> bool, expected: &str) -> Result<Vec<T>> {
     match rows.iter().position(|row| !good(row)) {
-        Some(index) => bail!("{}: row {index} holds other numbers, expected {expected}", path.display()),
+        Some(index) => Err(Error::new(format!("{name}: row {index} holds other numbers, expected {expected}"))),
         None => Ok(rows),
     }
 }
 
 /// An array of rows, bare or as `rows` of an object.
-fn rows<T: for<'a> Deserialize<'a>>(path: &Path) -> Result<Vec<T>> {
-    let file = match File::open(path) {
-        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
-        other => other.with_context(|| format!("{}: cannot be read", path.display()))?,
-    };
-    let mut text = String::new();
-    file.take(MAX_BYTES).read_to_string(&mut text).with_context(|| format!("{}: is no text", path.display()))?;
-    let value: Value = serde_json::from_str(&text).with_context(|| format!("{}: is no JSON", path.display()))?;
+fn rows<T: for<'a> Deserialize<'a>>(name: &str, text: &str) -> Result<Vec<T>> {
+    let value: Value = serde_json::from_str(text).map_err(|error| Error::of(&format!("{name}: is no JSON"), error))?;
     let rows = match value {
         Value::Object(mut object) => object.remove("rows").unwrap_or(Value::Null),
         other => other,
     };
     if !rows.is_array() {
-        return Err(anyhow!("{}: holds no rows, expected an array of them", path.display()));
+        return Err(Error::new(format!("{name}: holds no rows, expected an array of them")));
     }
-    serde_json::from_value(rows).with_context(|| path.display().to_string())
+    serde_json::from_value(rows).map_err(|error| Error::of(name, error))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn written(text: &str) -> (tempfile::TempDir, std::path::PathBuf) {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a.json");
-        std::fs::write(&path, text).unwrap();
-        (folder, path)
-    }
-
     #[test]
     fn rows_come_bare_or_named_or_not_at_all() {
         let row =
             r#"{"job": "cube 33", "ours_ns_per_pixel": 10, "theirs_ns_per_pixel": 25, "difference": 4e-5, "more": 1}"#;
         for text in [format!("[{row}]"), format!("{{\"rows\": [{row}]}}")] {
-            let (_folder, path) = written(&text);
-            let peers = peers(&path).unwrap();
+            let peers = Elsewhere::default().with_peers("a.json", &text).unwrap().peers;
             assert_eq!((peers.len(), peers[0].ratio(), peers[0].difference()), (1, 2.5, "4.0e-5".to_owned()));
         }
-        assert!(on_cards(Path::new("/nowhere/gpu.json")).unwrap().is_empty());
+        assert!(Elsewhere::default().cards.is_empty());
     }
 
     #[test]
     fn bad_rows_are_named() {
         for text in ["", "3", "{}", "[{}]", r#"[{"job": "x", "ours_ns_per_pixel": 0, "theirs_ns_per_pixel": 1}]"#] {
-            let (_folder, path) = written(text);
-            let error = format!("{:#}", peers(&path).unwrap_err());
+            let error = Elsewhere::default().with_peers("a.json", text).unwrap_err().to_string();
             assert!(error.contains("a.json"), "{error}");
         }
     }

@@ -2,12 +2,12 @@
 
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, bail};
-use onelight::lut::{Channels, PixelMap, Pixels, PixelsMut};
+use onelight::lut::{Channels, PixelsMut};
 use serde::Serialize;
 
 use super::frame::Frame;
-use crate::compiled::Compiled;
+use crate::error::{Error, Result};
+use crate::form::Form;
 
 /// Time that one pass of one thing should take; cheaper things do more rows.
 const PASS: Duration = Duration::from_millis(14);
@@ -33,24 +33,13 @@ impl Timing {
 pub(super) type Pass<'a> = Box<dyn Fn(usize, usize, &mut [f32]) -> Result<usize> + Sync + 'a>;
 
 /// A form over rows of the frame.
-pub(super) fn mapping<'a>(form: &'a Compiled, frame: &'a Frame) -> Pass<'a> {
+pub(super) fn mapping<'a>(form: &'a Form, frame: &'a Frame) -> Pass<'a> {
     Box::new(move |first, every, buffer| {
         let from = frame.rows(first, every)?;
         let size = from.size();
-        map(form, &from, &mut PixelsMut::new(buffer, Channels::Rgb, size)?)?;
+        form.map(&from, &mut PixelsMut::new(buffer, Channels::Rgb, size)?)?;
         Ok(size[0] * size[1])
     })
-}
-
-/// A picture through a form, on the threads of the current pool.
-pub(super) fn map(form: &Compiled, from: &Pixels<'_, f32>, to: &mut PixelsMut<'_, f32>) -> Result<()> {
-    match form {
-        Compiled::Plain(lut) => lut.map(from, to)?,
-        Compiled::Structured(lut) => lut.map(from, to)?,
-        Compiled::Direct(direct) => direct.map(from, to)?,
-        Compiled::Coded { .. } => bail!("a table that takes coded colour is no form of its own"),
-    }
-    Ok(())
 }
 
 /// The same rows copied: what no form can be faster than.
@@ -103,7 +92,8 @@ pub(super) fn interleaved(
 
 /// A pool of so many threads.
 pub(super) fn pool(threads: usize) -> Result<rayon::ThreadPool> {
-    rayon::ThreadPoolBuilder::new().num_threads(threads).build().context("threads to measure on cannot be started")
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map_err(|error| Error::of("threads to measure on cannot be started", error))
 }
 
 /// How far apart rows lie so that a pass takes about [`PASS`]; tried from few rows to many.

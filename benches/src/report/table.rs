@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::forms::sum;
 use super::measure::{Look, Row};
-use super::outside::Peer;
+use super::peers::Peer;
 use super::stopwatch::Timing;
 use super::studies::{CurveRow, ExposureRow, GridRow, Measured};
 use super::text::{bytes, escaped, figure, plain};

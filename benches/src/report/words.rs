@@ -3,7 +3,7 @@
 use super::figure::{Which, front};
 use super::forms::{Kind, sum};
 use super::measure::{Look, Row};
-use super::outside::Elsewhere;
+use super::peers::Elsewhere;
 use super::stopwatch::Timing;
 use super::studies::{CurveRow, ExposureRow, GridRow, Growth, Measured};
 use super::text::{bytes, figure, listed, plain, slope};
@@ -239,12 +239,12 @@ pub(super) fn growth(growth: &Growth) -> [String; 4] {
 mod tests {
     use onelight::Process;
 
-    use super::super::measure::Error;
     use super::*;
+    use crate::baker::Difference;
 
     fn row(kind: Kind, detail: &str, (ns, bytes): (f64, usize), max: f64) -> Row {
         let time = Timing { ns, median_ns: ns };
-        let error = Error { mean: max / 10.0, max, ..Error::default() };
+        let error = Difference { mean: max / 10.0, max, ..Difference::default() };
         Row { bytes: Some(bytes), ..Row::bare(kind, detail, time, error) }
     }
 

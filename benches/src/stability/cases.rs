@@ -3,6 +3,8 @@
 use onelight::WorkingSpace;
 use onelight::spectra::{Chromaticity, Observer};
 
+use crate::error::Result;
+
 /// How the colours of a strand follow each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Order {
@@ -87,7 +89,7 @@ const FOUND: [[f32; 3]; 16] = [
 ];
 
 /// Those that no film decides.
-pub(super) fn general(space: WorkingSpace) -> anyhow::Result<Vec<Case>> {
+pub(super) fn general(space: WorkingSpace) -> Result<Vec<Case>> {
     let (nan, inf) = (f32::NAN, f32::INFINITY);
     Ok(vec![
         Case::new("zeros").with(Order::Loose, triples(&[0.0, -0.0, 0.18, 1.0])),
@@ -135,7 +137,7 @@ fn decades() -> Case {
 }
 
 /// Light of one wavelength by 10 nm from -10 to +14 stops: the largest channel lies so far above mid grey.
-fn spectral_locus(space: WorkingSpace) -> anyhow::Result<Case> {
+fn spectral_locus(space: WorkingSpace) -> Result<Case> {
     let from_xyz = space.space().with_white(Chromaticity::black_body_6500_k()).from_xyz()?;
     let [x, y, z] = Observer::cie_1931().matching_functions();
     let mut colours = Vec::new();

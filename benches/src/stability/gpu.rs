@@ -1,38 +1,39 @@
 //! Forms on a graphics card; nothing where this build knows none.
 
 #[cfg(feature = "gpu")]
-pub(super) use with::Card;
+pub use with::Card;
 #[cfg(not(feature = "gpu"))]
-pub(super) use without::Card;
+pub use without::Card;
 
 #[cfg(not(feature = "gpu"))]
 mod without {
-    use anyhow::{Result, bail};
+    use crate::error::{Error, Result};
+    use crate::form::Form;
 
-    use crate::compiled::Compiled;
-
-    pub(in super::super) struct Card;
+    /// A graphics card, of which this build knows none.
+    pub struct Card;
 
     impl Card {
-        pub(in super::super) fn open() -> Option<Self> {
+        /// None: the feature `gpu` is off.
+        pub fn open() -> Option<Self> {
             None
         }
 
-        pub(in super::super) fn name(&self) -> &'static str {
+        /// The card's name.
+        pub fn name(&self) -> &'static str {
             "no card"
         }
 
-        pub(in super::super) fn develop(&self, _: &Compiled, _: &[[f32; 3]]) -> Result<Vec<[f64; 3]>> {
-            bail!("this build knows no graphics cards")
+        pub(in super::super) fn develop(&self, _: &Form, _: &[[f32; 3]]) -> Result<Vec<[f64; 3]>> {
+            Err(Error::new("this build knows no graphics cards"))
         }
     }
 }
 
 #[cfg(feature = "gpu")]
 mod with {
-    use anyhow::{Context, Result, bail};
     use onelight::lut::Storage;
-    use onelight_gpu::{Fetch, FilmPass, Form, LookSettings, wgpu};
+    use onelight_gpu::{Fetch, FilmPass, LookSettings, wgpu};
     use pollster::block_on;
     use wgpu::{
         BufferDescriptor, BufferUsages, Device, DeviceDescriptor, Extent3d, Instance, InstanceDescriptor, MapMode,
@@ -40,38 +41,40 @@ mod with {
         TextureFormat, TextureUsages,
     };
 
-    use crate::compiled::Compiled;
+    use crate::error::{Error, Result};
+    use crate::form::Form;
 
     /// Pixels of a row: whole multiples of 256 bytes, as copies want them.
     const WIDTH: u32 = 256;
     const PIXEL_BYTES: u32 = 16;
 
-    /// An adapter, software ones included.
-    pub(in super::super) struct Card {
+    /// A graphics card, or software that stands in for one.
+    pub struct Card {
         device: Device,
         queue: Queue,
         name: String,
     }
 
     impl Card {
-        pub(in super::super) fn open() -> Option<Self> {
+        /// The system's first adapter, software ones included; `None` where there is none.
+        pub fn open() -> Option<Self> {
             let instance = Instance::new(InstanceDescriptor::new_without_display_handle());
             let adapter = block_on(instance.request_adapter(&Default::default())).ok()?;
             let (device, queue) = block_on(adapter.request_device(&DeviceDescriptor::default())).ok()?;
             Some(Self { device, queue, name: adapter.get_info().name })
         }
 
-        pub(in super::super) fn name(&self) -> &str {
+        /// The adapter's own name.
+        pub fn name(&self) -> &str {
             &self.name
         }
 
         /// Display-coded colours, by 32-bit floats throughout.
-        pub(in super::super) fn develop(&self, form: &Compiled, colours: &[[f32; 3]]) -> Result<Vec<[f64; 3]>> {
+        pub(in super::super) fn develop(&self, form: &Form, colours: &[[f32; 3]]) -> Result<Vec<[f64; 3]>> {
             let form = match form {
-                Compiled::Plain(lut) => Form::from(lut),
-                Compiled::Structured(lut) => Form::from(lut.as_ref()),
-                Compiled::Direct(direct) => Form::from(direct.as_ref()),
-                Compiled::Coded { .. } => bail!("a table of coded light has no shader"),
+                Form::Plain(lut) => onelight_gpu::Form::from(lut),
+                Form::Structured(lut) => onelight_gpu::Form::from(lut.as_ref()),
+                Form::Direct(direct) => onelight_gpu::Form::from(direct.as_ref()),
             };
             let settings = LookSettings { storage: Storage::F32, fetch: Fetch::Texels };
             let pass = FilmPass::with_settings(&self.device, &self.queue, form, TextureFormat::Rgba32Float, &settings)?;
@@ -113,7 +116,8 @@ mod with {
             self.queue.submit([encoder.finish()]);
             read.slice(..).map_async(MapMode::Read, |_| ());
             self.device.poll(PollType::wait_indefinitely())?;
-            let bytes = read.slice(..).get_mapped_range().context("what the card made cannot be read")?.to_vec();
+            let bytes = read.slice(..).get_mapped_range();
+            let bytes = bytes.map_err(|error| Error::of("what the card made cannot be read", error))?.to_vec();
             let float = |bytes: &[u8]| f64::from(bytes.try_into().map_or(f32::NAN, f32::from_ne_bytes));
             let pixels = bytes.chunks_exact(PIXEL_BYTES as usize).take(colours.len());
             Ok(pixels.map(|p| [float(&p[0..4]), float(&p[4..8]), float(&p[8..12])]).collect())

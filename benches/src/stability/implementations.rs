@@ -1,15 +1,15 @@
-//! Every way in which a form can be computed.
+//! Every implementation that computes a form: float64, float32, vector instructions, graphics cards.
 
-use anyhow::Result;
 use onelight::lut::{Channels, PixelMap, Pixels, PixelsMut, Vectors};
 use rayon::prelude::*;
 
 use super::gpu::Card;
-use crate::compiled::Compiled;
+use crate::error::Result;
+use crate::form::Form;
 
 /// What computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub enum Kind {
     /// One pixel at a time in float64.
     Float64,
     /// One pixel at a time in float32: the definition.
@@ -31,8 +31,8 @@ impl Kind {
     }
 }
 
-/// What one way makes of all colours, display-coded.
-pub(super) struct Way {
+/// What one implementation makes of all colours, display-coded.
+pub(super) struct Output {
     pub(super) kind: Kind,
     /// `float64`, `float32`, the name of instructions, or of a card.
     pub(super) name: String,
@@ -42,26 +42,25 @@ pub(super) struct Way {
 }
 
 /// Float64 first, then the definition in float32, one pixel at a time; then vectors and cards.
-pub(super) fn ways(form: &Compiled, colours: &[[f32; 3]], card: Option<&Card>) -> Result<Vec<Way>> {
-    let mut ways = match form {
-        Compiled::Plain(lut) => on_processor(lut, colours)?,
-        Compiled::Structured(lut) => on_processor(lut.as_ref(), colours)?,
-        Compiled::Direct(direct) => on_processor(direct.as_ref(), colours)?,
-        Compiled::Coded { .. } => anyhow::bail!("a table of coded light is not among the forms measured"),
+pub(super) fn outputs(form: &Form, colours: &[[f32; 3]], card: Option<&Card>) -> Result<Vec<Output>> {
+    let mut outputs = match form {
+        Form::Plain(lut) => on_processor(lut, colours)?,
+        Form::Structured(lut) => on_processor(lut.as_ref(), colours)?,
+        Form::Direct(direct) => on_processor(direct.as_ref(), colours)?,
     };
     if let Some(card) = card {
         let (kind, name, coded) = (Kind::Card, card.name().to_owned(), card.develop(form, colours)?);
-        ways.push(Way { kind, name, coded, codes: None });
+        outputs.push(Output { kind, name, coded, codes: None });
     }
-    Ok(ways)
+    Ok(outputs)
 }
 
-fn on_processor(form: &impl PixelMap, colours: &[[f32; 3]]) -> Result<Vec<Way>> {
+fn on_processor(form: &impl PixelMap, colours: &[[f32; 3]]) -> Result<Vec<Output>> {
     let exact = colours.par_iter().map(|rgb| form.apply_f64(rgb.map(f64::from))).collect();
     let single: Vec<[f32; 3]> = colours.par_iter().map(|rgb| form.apply(*rgb)).collect();
-    let mut ways = vec![
-        Way { kind: Kind::Float64, name: Kind::Float64.word().to_owned(), coded: exact, codes: None },
-        Way { kind: Kind::Float32, name: Kind::Float32.word().to_owned(), coded: widened(&single), codes: None },
+    let mut outputs = vec![
+        Output { kind: Kind::Float64, name: Kind::Float64.word().to_owned(), coded: exact, codes: None },
+        Output { kind: Kind::Float32, name: Kind::Float32.word().to_owned(), coded: widened(&single), codes: None },
     ];
     let size = [colours.len(), 1];
     let from = Pixels::new(colours.as_flattened(), Channels::Rgb, size)?;
@@ -71,9 +70,9 @@ fn on_processor(form: &impl PixelMap, colours: &[[f32; 3]]) -> Result<Vec<Way>> 
         let mut codes = vec![[0_u8; 3]; colours.len()];
         form.map_on(vectors, &from, &mut PixelsMut::new(codes.as_flattened_mut(), Channels::Rgb, size)?)?;
         let (kind, name) = (Kind::Vectors, vectors.name().to_owned());
-        ways.push(Way { kind, name, coded: widened(&floats), codes: Some(codes) });
+        outputs.push(Output { kind, name, coded: widened(&floats), codes: Some(codes) });
     }
-    Ok(ways)
+    Ok(outputs)
 }
 
 fn widened(coded: &[[f32; 3]]) -> Vec<[f64; 3]> {

@@ -1,13 +1,13 @@
-//! What must hold, and why. Where nothing is said, a figure is told and not limited: how far a table or a sum of exponentials lies
+//! The limits that must hold, and why. A figure without a limit is measured only: how far a table or a sum of exponentials lies
 //! from its film is what certificates are for.
 
+use super::implementations::Kind;
 use super::measure::{Quantity, Row};
-use super::ways::Kind;
 
 /// Luminance of the film itself on rising greys: a sum of 401 positive terms, rounded in float64.
 const FALL_EXACT: f64 = 1e-12;
 /// Of a form in float64: its entries and weights are float32, and two neighbours may be rounded apart by 6e-8 each; in densities
-/// that is worth 2.3 times as much light.
+/// that is 2.3 times as much light.
 const FALL_STORED: f64 = 3e-7;
 /// Of a form in float32. Greys fall where the curve is flat, near white: there each term of a sum is wrong by 2.5e-7 of itself at
 /// most (`exp2`), terms of either sign come to four times their sum, and two neighbours count.
@@ -30,8 +30,8 @@ const EXCESS_DIRECT: f64 = 0.13;
 /// The direct form's promise for all pairs of films.
 const FILM_DIRECT: f64 = 0.13;
 
-/// The most that a quantity may be in a row; `None` where it is told only.
-pub(super) fn limit(row: &Row, quantity: Quantity) -> Option<f64> {
+/// The most that a quantity may be in a row; `None` where it is measured and has no limit.
+pub fn limit(row: &Row, quantity: Quantity) -> Option<f64> {
     match (quantity, row.kind, row.form.as_str()) {
         (Quantity::NotFinite, ..) => Some(0.0),
         (Quantity::Fall, _, "film") => Some(FALL_EXACT),

@@ -1,21 +1,23 @@
 //! What is measured, and where it is worst.
 
-use anyhow::Result;
 use onelight::lut::Sample;
 use onelight::spectra::ciede2000;
 use onelight::spectra::nalgebra::Vector3;
-use onelight::{Look, Process, TransferCurve, Word};
+use onelight::{DirectSettings, Entries, Look, Process, StructuredSettings, TransferCurve, Word};
 use rayon::prelude::*;
 
 use super::cases::{Case, Order, Strand, general};
 use super::gpu::Card;
-use super::places;
-use super::ways::{Kind, Way, ways};
-use crate::compiled::{Compiled, Form, Recipe};
+use super::hard_inputs;
+use super::implementations::{Kind, Output, outputs};
+use crate::baker::{Baker, PlainShaper, PlainTable};
+use crate::error::Result;
+use crate::form::Form;
+use crate::look::PLAIN_SIZE;
 
 /// What can go wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Quantity {
+pub enum Quantity {
     /// Colours with a number that is not finite.
     NotFinite,
     /// From a grey to the next brighter one, luminance 1 at white.
@@ -52,28 +54,36 @@ impl Quantity {
 
 /// The largest of its kind, and the scene colour that it was found at.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Worst {
-    pub(super) value: f64,
-    pub(super) at: [f32; 3],
+pub struct Worst {
+    /// In the unit of its quantity.
+    pub value: f64,
+    /// Scene-linear RGB in the primaries of the process.
+    pub at: [f32; 3],
 }
 
-/// A case done in one way.
+/// A case computed by one implementation of one form.
 #[derive(Debug, Clone)]
-pub(super) struct Row {
-    pub(super) process: String,
+pub struct Row {
+    /// The look's films and aim.
+    pub process: String,
     /// `film`, the form's name, or two of them.
-    pub(super) form: String,
-    pub(super) way: String,
-    pub(super) kind: Kind,
-    pub(super) case: &'static str,
-    pub(super) colours: usize,
-    pub(super) found: Vec<(Quantity, Worst)>,
+    pub form: String,
+    /// The implementation: `float64`, `float32`, the name of instructions, or of a card.
+    pub implementation: String,
+    /// What kind of implementation that is.
+    pub kind: Kind,
+    /// The name of the hard inputs.
+    pub case: &'static str,
+    /// How many colours they are.
+    pub colours: usize,
+    /// The worst of every quantity that the case has.
+    pub found: Vec<(Quantity, Worst)>,
     /// Mean dE from the film, or between two forms.
-    pub(super) mean: Option<f64>,
+    pub mean: Option<f64>,
 }
 
-/// The forms measured; the film itself comes before them.
-const FORMS: [Form; 3] = [Form::Direct, Form::Structured, Form::Plain];
+/// How many forms are measured; the film itself comes before them.
+const FORMS: usize = 3;
 
 /// A process with its hard cases, and what the film makes of them.
 struct Subject {
@@ -96,28 +106,28 @@ struct Seen {
 
 /// A form with the brightest scene value that it tells from brighter ones.
 struct Measured {
-    form: Form,
+    form: &'static str,
     end: Option<f64>,
-    ways: Vec<Way>,
+    outputs: Vec<Output>,
     seen: Vec<Seen>,
 }
 
-/// A process measured in every way; a call of `progress` for each of [`STEPS`].
-pub(super) fn rows(process: &Process, card: Option<&Card>, progress: impl Fn()) -> Result<Vec<Row>> {
+/// A process measured in every implementation; a call of `progress` for each of [`STEPS`].
+///
+/// # Errors
+/// If the process does not compile, or the card cannot develop.
+pub fn rows(process: &Process, card: Option<&Card>, baker: &dyn Baker, progress: impl Fn()) -> Result<Vec<Row>> {
     let look = process.look()?;
-    let forms: Vec<Compiled> = FORMS
-        .into_iter()
-        .map(|form| Compiled::new(&look, process, &Recipe::usual(form), None))
-        .collect::<Result<_>>()?;
+    let forms = forms(&look, baker)?;
     progress();
     let subject = Subject::new(process, look, &forms)?;
     let mut rows = subject.of_film();
     progress();
     let mut measured = Vec::new();
-    for (compiled, form) in forms.iter().zip(FORMS) {
-        let ways = ways(compiled, &subject.colours, card)?;
-        let seen = ways.par_iter().map(|way| subject.seen(&way.coded)).collect::<Result<Vec<_>>>()?;
-        measured.push(Measured { form, end: compiled.max(), ways, seen });
+    for form in &forms {
+        let outputs = outputs(form, &subject.colours, card)?;
+        let seen = outputs.par_iter().map(|output| subject.seen(&output.coded)).collect::<Result<Vec<_>>>()?;
+        measured.push(Measured { form: form.word(), end: form.end(), outputs, seen });
         progress();
     }
     rows.extend(measured.iter().flat_map(|one| subject.of_form(one)));
@@ -128,18 +138,32 @@ pub(super) fn rows(process: &Process, card: Option<&Card>, progress: impl Fn()) 
 }
 
 /// How often [`rows`] reports.
-pub(super) const STEPS: usize = 2 + FORMS.len();
+pub const STEPS: usize = 2 + FORMS;
+
+/// The forms as they usually are.
+fn forms(look: &Look, baker: &dyn Baker) -> Result<[Form; FORMS]> {
+    let film = look.film()?;
+    let shaper = PlainShaper::Fitted { stops: None };
+    let plain = PlainTable { size: PLAIN_SIZE, shaper, entries: Entries::Sampled };
+    Ok([
+        Form::Direct(Box::new(film.direct(&DirectSettings::default())?)),
+        Form::Structured(Box::new(film.structured(&StructuredSettings::default())?)),
+        Form::Plain(plain.bake(look, baker)?),
+    ])
+}
 
 impl Subject {
-    fn new(process: &Process, look: Look, forms: &[Compiled]) -> Result<Self> {
+    fn new(process: &Process, look: Look, forms: &[Form]) -> Result<Self> {
         let film = look.film()?;
         let mut cases = general(process.input_space)?;
-        cases.extend([places::steepest(film), places::dense(film)]);
+        cases.extend([hard_inputs::steepest(film), hard_inputs::dense(film)]);
         for form in forms {
             match form {
-                Compiled::Plain(lut) => cases.push(places::plain_nodes(lut)),
-                Compiled::Structured(lut) => cases.extend([places::curve_nodes(film, lut), places::table_nodes(lut)]),
-                Compiled::Direct(_) | Compiled::Coded { .. } => {}
+                Form::Plain(lut) => cases.push(hard_inputs::plain_nodes(lut)),
+                Form::Structured(lut) => {
+                    cases.extend([hard_inputs::curve_nodes(film, lut), hard_inputs::table_nodes(lut)])
+                }
+                Form::Direct(_) => {}
             }
         }
         let luminance = process.output_space.space().to_xyz()?.row(1).transpose();
@@ -184,18 +208,18 @@ impl Subject {
     }
 
     fn of_form(&self, measured: &Measured) -> Vec<Row> {
-        let ways = measured.ways.iter().zip(&measured.seen);
-        ways.flat_map(|(way, seen)| self.of_way(measured, way, seen)).collect()
+        let outputs = measured.outputs.iter().zip(&measured.seen);
+        outputs.flat_map(|(output, seen)| self.of_output(measured, output, seen)).collect()
     }
 
-    fn of_way(&self, measured: &Measured, way: &Way, seen: &Seen) -> Vec<Row> {
-        let ([exact, single, ..], [_, written, ..]) = (&measured.seen[..], &measured.ways[..]) else {
+    fn of_output(&self, measured: &Measured, output: &Output, seen: &Seen) -> Vec<Row> {
+        let ([exact, single, ..], [_, written, ..]) = (&measured.seen[..], &measured.outputs[..]) else {
             return Vec::new();
         };
-        let form = measured.form.word();
+        let form = measured.form;
         let within = |i: usize| self.is_within(measured.end, i);
         let codes = |i: usize| {
-            let codes = way.codes.as_ref().map_or([0; 3], |codes| codes[i]);
+            let codes = output.codes.as_ref().map_or([0; 3], |codes| codes[i]);
             let expected = written.coded[i].map(|v| u8::from_f32(v as f32));
             f64::from((0..3).map(|c| codes[c].abs_diff(expected[c])).max().unwrap_or(0))
         };
@@ -206,17 +230,17 @@ impl Subject {
             let from_film = |i| if within(i) { from_film(i) } else { 0.0 };
             let apart = |other: &Seen| each(case, first, |i| apart(seen.srgb[i], other.srgb[i]));
             let found = [
-                (Quantity::NotFinite, Some(not_finite(case, first, &way.coded))),
+                (Quantity::NotFinite, Some(not_finite(case, first, &output.coded))),
                 (Quantity::Fall, self.fall(case, first, seen)),
                 (Quantity::Step, largest(case, first, |a, b| seen.step(a, b))),
                 (Quantity::Excess, largest(case, first, excess)),
-                (Quantity::Rounding, (way.kind != Kind::Float64).then(|| apart(exact))),
-                (Quantity::Vectors, matches!(way.kind, Kind::Vectors | Kind::Card).then(|| apart(single))),
-                (Quantity::Codes, way.codes.is_some().then(|| each(case, first, codes))),
+                (Quantity::Rounding, (output.kind != Kind::Float64).then(|| apart(exact))),
+                (Quantity::Vectors, matches!(output.kind, Kind::Vectors | Kind::Card).then(|| apart(single))),
+                (Quantity::Codes, output.codes.is_some().then(|| each(case, first, codes))),
                 (Quantity::Film, Some(each(case, first, from_film))),
             ];
             let mean = mean((first..first + case.len()).filter(|i| within(*i)).map(from_film));
-            self.row((&form, &way.name, way.kind), case, found, mean)
+            self.row((form, &output.name, output.kind), case, found, mean)
         };
         let beyond = |(case, first): (&Case, usize)| {
             let excess = |a, b| if within(a) && within(b) { 0.0 } else { beyond_film(a, b) };
@@ -224,7 +248,7 @@ impl Subject {
             let mean = mean((first..first + case.len()).filter(|i| !within(*i)).map(from_film))?;
             let found =
                 [(Quantity::Excess, largest(case, first, excess)), (Quantity::Film, Some(each(case, first, beyond)))];
-            Some(self.row((&format!("{form} past its end"), &way.name, way.kind), case, found, Some(mean)))
+            Some(self.row((&format!("{form} past its end"), &output.name, output.kind), case, found, Some(mean)))
         };
         self.placed().map(row).chain(self.placed().filter_map(beyond)).collect()
     }
@@ -232,7 +256,7 @@ impl Subject {
     /// Two forms, both by one pixel at a time in float32, where both know the light.
     fn between(&self, one: &Measured, other: &Measured) -> Vec<Row> {
         let ([_, a, ..], [_, b, ..]) = (&one.seen[..], &other.seen[..]) else { return Vec::new() };
-        let forms = format!("{} and {}", one.form.word(), other.form.word());
+        let forms = format!("{} and {}", one.form, other.form);
         let within = |i: usize| self.is_within(one.end, i) && self.is_within(other.end, i);
         let row = |(case, first): (&Case, usize)| {
             let between = |i: usize| if within(i) { ciede2000(a.lab[i], b.lab[i]) } else { 0.0 };
@@ -245,14 +269,14 @@ impl Subject {
 
     fn row(
         &self,
-        (form, way, kind): (&str, &str, Kind),
+        (form, implementation, kind): (&str, &str, Kind),
         case: &Case,
         found: impl IntoIterator<Item = (Quantity, Option<Worst>)>,
         mean: Option<f64>,
     ) -> Row {
         let found = found.into_iter().filter_map(|(quantity, worst)| Some((quantity, worst?))).collect();
-        let (process, form, way) = (self.name.clone(), form.to_owned(), way.to_owned());
-        Row { process, form, way, kind, case: case.name, colours: case.len(), found, mean }
+        let (process, form, implementation) = (self.name.clone(), form.to_owned(), implementation.to_owned());
+        Row { process, form, implementation, kind, case: case.name, colours: case.len(), found, mean }
     }
 
     /// By how much luminance falls on the greys of a case, if it has any.

@@ -7,11 +7,12 @@ use serde_json::{Value, json};
 use super::law::limit;
 use super::measure::{Quantity, Row, Worst};
 
-/// Everything that was measured.
-pub(super) struct Contents<'a> {
+/// Everything that was measured, to be written.
+pub struct Contents<'a> {
     /// The graphics card, if there is one.
-    pub(super) card: Option<String>,
-    pub(super) rows: &'a [Row],
+    pub card: Option<String>,
+    /// What [`rows`](super::rows) found, look by look.
+    pub rows: &'a [Row],
 }
 
 /// The worst of one quantity in one form.
@@ -29,7 +30,7 @@ impl Line<'_> {
 
 impl Contents<'_> {
     /// The worst of each quantity and form, worst first, a line each.
-    pub(super) fn summary(&self) -> String {
+    pub fn summary(&self) -> String {
         let mut text = String::new();
         for quantity in Quantity::ALL {
             // Writing to a string cannot fail.
@@ -38,7 +39,7 @@ impl Contents<'_> {
                 self.lines(quantity).into_iter().partition(|line| line.worst.value == 0.0);
             for line in some {
                 let Line { row, worst, limit } = &line;
-                let form = format!("{}, {}", row.form, row.way);
+                let form = format!("{}, {}", row.form, row.implementation);
                 let value = figure(quantity, worst.value);
                 let limit = limit.map_or_else(String::new, |limit| format!("of {}", figure(quantity, limit)));
                 let broken = if line.is_kept() { "" } else { "BROKEN: " };
@@ -65,7 +66,7 @@ impl Contents<'_> {
     }
 
     /// The summary, and every row.
-    pub(super) fn markdown(&self) -> String {
+    pub fn markdown(&self) -> String {
         let mut text = format!("# Stability\n\n```\n{}```\n\n", self.summary());
         text.push_str("| look | form | way | case | colours |");
         Quantity::ALL.iter().for_each(|quantity| text.push_str(&format!(" {} |", short(*quantity))));
@@ -73,7 +74,11 @@ impl Contents<'_> {
         text.push_str(&"---|".repeat(Quantity::ALL.len() + 1));
         text.push('\n');
         for row in self.rows {
-            let _ = write!(text, "| {} | {} | {} | {} | {} |", row.process, row.form, row.way, row.case, row.colours);
+            let _ = write!(
+                text,
+                "| {} | {} | {} | {} | {} |",
+                row.process, row.form, row.implementation, row.case, row.colours
+            );
             for quantity in Quantity::ALL {
                 let found = row.found.iter().find(|(q, _)| *q == quantity);
                 let _ = write!(text, " {} |", found.map_or(String::new(), |(q, worst)| figure(*q, worst.value)));
@@ -83,7 +88,8 @@ impl Contents<'_> {
         text
     }
 
-    pub(super) fn json(&self) -> Value {
+    /// The summary and every row as one object.
+    pub fn json(&self) -> Value {
         let found = |quantity: Quantity, row: &Row, worst: &Worst| {
             json!({
                 "value": worst.value,
@@ -99,7 +105,7 @@ impl Contents<'_> {
                 .map(|(quantity, worst)| (key(*quantity).to_owned(), found(*quantity, row, worst)))
                 .collect();
             json!({
-                "look": row.process, "form": row.form, "way": row.way, "case": row.case, "colours": row.colours,
+                "look": row.process, "form": row.form, "way": row.implementation, "case": row.case, "colours": row.colours,
                 "found": quantities, "mean_de": row.mean,
             })
         };
@@ -111,7 +117,7 @@ impl Contents<'_> {
                     for (key, text) in [
                         ("look", &line.row.process),
                         ("form", &line.row.form),
-                        ("way", &line.row.way),
+                        ("way", &line.row.implementation),
                         ("case", &line.row.case.to_owned()),
                     ] {
                         value[key] = text.as_str().into();
@@ -150,7 +156,7 @@ impl Contents<'_> {
         for row in self.rows {
             let Some((_, worst)) = row.found.iter().find(|(q, _)| *q == quantity) else { continue };
             let line = Line { row, worst: *worst, limit: limit(row, quantity) };
-            // Ways with limits of their own have lines of their own.
+            // Implementations with limits of their own have lines of their own.
             let same = |other: &&mut Line<'_>| other.row.form == row.form && other.limit == line.limit;
             match lines.iter_mut().find(same) {
                 Some(other) if other.worst.value >= worst.value => {}

@@ -1,4 +1,4 @@
-//! What happens when a run is told to stop.
+//! What happens when a signal stops a run.
 
 use std::{
     fs,
@@ -6,19 +6,19 @@ use std::{
     sync::{Mutex, Once, PoisonError},
 };
 
-use super::temporary::unfinished;
+use super::unfinished::unfinished;
 
-/// Says what is to be said where the run is stopped: one sentence on the standard error.
+/// Writes `message` to the standard error, one sentence, where the run is stopped by a signal.
 ///
-/// `words` must not wait for a thread that writes a file.
-pub(crate) fn last_words(words: impl Fn() -> String + Send + 'static) {
-    *LAST_WORDS.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(words));
+/// `message` must not wait for a thread that writes a file.
+pub(crate) fn say_when_stopped(message: impl Fn() -> String + Send + 'static) {
+    *MESSAGE.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(message));
     watch();
 }
 
-type Words = Box<dyn Fn() -> String + Send>;
+type Message = Box<dyn Fn() -> String + Send>;
 
-static LAST_WORDS: Mutex<Option<Words>> = Mutex::new(None);
+static MESSAGE: Mutex<Option<Message>> = Mutex::new(None);
 
 /// Makes a signal to stop remove what is unfinished. Without it, files stay: nothing else is lost.
 pub(super) fn watch() {
@@ -58,8 +58,8 @@ fn stop(status: i32) -> ! {
     for path in paths.iter() {
         let _ = fs::remove_file(path);
     }
-    if let Some(words) = LAST_WORDS.lock().unwrap_or_else(PoisonError::into_inner).as_ref() {
-        let _ = writeln!(io::stderr(), "{}", words());
+    if let Some(message) = MESSAGE.lock().unwrap_or_else(PoisonError::into_inner).as_ref() {
+        let _ = writeln!(io::stderr(), "{}", message());
     }
     std::process::exit(status)
 }

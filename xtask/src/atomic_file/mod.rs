@@ -4,6 +4,7 @@ mod interrupt;
 mod temporary;
 #[cfg(test)]
 mod tests;
+mod unfinished;
 
 use std::{
     fmt,
@@ -14,8 +15,8 @@ use std::{
 
 use anyhow::{Result, anyhow, bail};
 
-use self::temporary::{Temporary, folder_of};
-pub(crate) use self::{interrupt::last_words, temporary::remove_leftovers};
+use self::temporary::{Temporary, cannot_write, folder_of};
+pub(crate) use self::{interrupt::say_when_stopped, temporary::remove_leftovers};
 
 /// Writes the file `path` through a temporary file in the same folder, which takes the name only when it is complete
 /// and synced.
@@ -157,8 +158,4 @@ impl Target {
         }
         Ok(Self { path: path.to_owned(), folder: folder.to_owned(), permissions: None })
     }
-}
-
-fn cannot_write(error: &io::Error) -> anyhow::Error {
-    anyhow!("cannot be written: {error}")
 }

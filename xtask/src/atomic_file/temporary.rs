@@ -9,16 +9,14 @@ use std::{
     fs::{self, File, OpenOptions, TryLockError},
     io,
     path::{Path, PathBuf},
-    sync::{
-        Mutex, MutexGuard, PoisonError,
-        atomic::{AtomicU32, Ordering},
-    },
+    sync::atomic::{AtomicU32, Ordering},
 };
 
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 use sha2::{Digest, Sha256};
 
-use super::{cannot_write, interrupt};
+use super::interrupt;
+use super::unfinished::{remove_if_left, unfinished};
 
 /// How many names are tried for the temporary file before giving up.
 const NAMES_TRIED: u32 = 64;
@@ -47,13 +45,6 @@ pub(super) fn folder_of(path: &Path) -> &Path {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     }
-}
-
-/// The temporary files that exist, to be removed where the run is stopped.
-static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
-
-pub(super) fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
-    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// The name of a file that is removed unless it is renamed.
@@ -135,9 +126,6 @@ fn stem_of(name: &OsStr) -> Option<&str> {
     rest.get(..BEGINNING.len() + 2 * STEM_BYTES + 1)
 }
 
-fn remove_if_left(path: &Path) {
-    let Ok(file) = OpenOptions::new().write(true).open(path) else { return };
-    if file.try_lock().is_ok() {
-        let _ = fs::remove_file(path);
-    }
+pub(super) fn cannot_write(error: &io::Error) -> anyhow::Error {
+    anyhow!("cannot be written: {error}")
 }

@@ -1,38 +1,19 @@
 //! `report`: the speed of every form against its error, and what its parts cost, as one page.
 
-mod axis;
-mod figure;
-mod forms;
-mod frame;
-mod labels;
-mod machine;
-mod measure;
-mod outside;
-mod page;
-mod plot;
-mod stopwatch;
-mod studies;
-mod table;
-mod text;
-mod words;
+use std::cell::RefCell;
+use std::fs::File;
+use std::io::{ErrorKind, Read};
+use std::path::{Path, PathBuf};
 
-use std::fmt::Write as _;
-use std::path::PathBuf;
-
-use anyhow::Result;
+use anyhow::{Context, Result};
 use clap::Args;
 use onelight::Process;
-use serde_json::json;
+use onelight_benches::report::{self, Elsewhere, Listener, Scope};
 
-use self::forms::{Kind, Scope};
-use self::machine::Machine;
-use self::measure::{Look, Prepared, law, timed};
-use self::outside::Elsewhere;
-use self::stopwatch::Timing;
-use self::studies::{Growth, Studies, frame, growth, rounds};
+use crate::atomic_file::WholeSet;
+use crate::baker::Runner;
 use crate::look::LookArguments;
-use crate::progress::Clock;
-use crate::whole::WholeSet;
+use crate::progress::{Clock, bars};
 use crate::{Report, folders};
 
 /// The reversal film beside the default negative, so that both kinds show.
@@ -56,73 +37,62 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// Everything that is on the page.
-struct Contents {
-    scope: Scope,
-    machine: Machine,
-    colours: usize,
-    rounds: usize,
-    /// Width and height of the picture timed on.
-    frame: [usize; 2],
-    /// What is on it.
-    content: &'static str,
-    copy: Timing,
-    looks: Vec<(Look, Studies)>,
-    /// Of the first look.
-    growth: Growth,
-    elsewhere: Elsewhere,
-    /// How long each part took.
-    clock: String,
-}
+/// Longest file of other measurements that is read.
+const MAX_BYTES: u64 = 4 << 20;
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
-    let mut clock = Clock::default();
+    let clock = RefCell::new(Clock::default());
     let scope = if arguments.quick { Scope::Quick } else { Scope::Full };
-    // Outside the workspace nothing else was measured.
-    let elsewhere = folders::output("").map_or_else(|_| Ok(Elsewhere::default()), |folder| Elsewhere::read(&folder))?;
+    let elsewhere = elsewhere()?;
     let folder = match &arguments.out {
         Some(folder) => folders::make(folder)?,
         None => folders::output("report")?,
     };
-    let mut prepared = Vec::new();
-    for process in processes(&arguments.look)? {
-        prepared.push(clock.time("forms", || Prepared::new(&process, scope))?);
-    }
-    let frame = clock.time("picture", || frame(scope))?;
-    let (looks, copy) = clock.time("timing", || timed(&prepared, &frame, rounds(scope)))?;
-    let mut studied = Vec::new();
-    for (prepared, look) in prepared.iter().zip(looks) {
-        let studies = clock.time("studies", || Studies::of(prepared, &look, scope))?;
-        studied.push((look, studies));
-    }
-    let growth = clock.time("growth", || growth(&prepared[0], &studied[0].0, &frame, scope))?;
-    let contents = Contents {
-        scope,
-        machine: Machine::here(),
-        colours: law(scope).count,
-        rounds: rounds(scope),
-        frame: frame.size(),
-        content: "the fixture scene enlarged four times, with grain",
-        copy,
-        looks: studied,
-        growth,
-        elsewhere,
-        clock: clock.sentence(),
-    };
+    let bars = bars();
+    let time = |part, taken| clock.borrow_mut().add(part, taken);
+    let listener = Listener { progress: &bars, time: &time };
+    let found = report::measure(&processes(&arguments.look)?, scope, elsewhere, &Runner, listener)?;
+    let clock = clock.into_inner();
+    let found = found.with_clock(clock.sentence());
     let mut files = WholeSet::in_folder(&folder);
-    let mut json = json(&contents, &clock);
-    files.add("index.html", page::html(&contents).into_bytes());
+    let mut json = found.json(&clock.json());
+    files.add("index.html", found.html().into_bytes());
     files.add("report.json", serde_json::to_vec_pretty(&json)?);
     let mut written = files.write()?;
     if arguments.commit {
         let mut picture = WholeSet::in_folder(&folders::workspace()?.join("docs/images"));
-        picture.add("speed-error.svg", page::picture(&contents).into_bytes());
+        picture.add("speed-error.svg", found.plot().into_bytes());
         written.extend(picture.write()?);
     }
     let shown: Vec<String> = written.iter().map(|file| folders::shown(file)).collect();
-    let text = said(&contents, &shown);
+    let text = found.summary(&shown);
     json["files"] = shown.into();
     Ok(Report { text, json, as_json: arguments.json })
+}
+
+/// What `gpu-bench` and `benches/peers/run.py` measured; nothing where they have not run, or outside the workspace.
+fn elsewhere() -> Result<Elsewhere> {
+    let Ok(folder) = folders::output("") else { return Ok(Elsewhere::default()) };
+    let mut elsewhere = Elsewhere::default();
+    if let Some((name, text)) = text_of(&folder.join("gpu.json"))? {
+        elsewhere = elsewhere.with_cards(&name, &text)?;
+    }
+    if let Some((name, text)) = text_of(&folder.join("peers.json"))? {
+        elsewhere = elsewhere.with_peers(&name, &text)?;
+    }
+    Ok(elsewhere)
+}
+
+/// A file with its name, if it is there.
+fn text_of(path: &Path) -> Result<Option<(String, String)>> {
+    let name = path.display().to_string();
+    let file = match File::open(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+        other => other.with_context(|| format!("{name}: cannot be read"))?,
+    };
+    let mut text = String::new();
+    file.take(MAX_BYTES).read_to_string(&mut text).with_context(|| format!("{name}: is no text"))?;
+    Ok(Some((name, text)))
 }
 
 /// The look asked for; without a word about films, the default negative and a reversal film.
@@ -134,46 +104,4 @@ fn processes(arguments: &LookArguments) -> Result<Vec<Process>> {
     let Process { camera, print, .. } = Process::for_camera(REVERSAL)?;
     let reversal = Process { camera, print, ..process.clone() };
     Ok(vec![process, reversal])
-}
-
-fn json(contents: &Contents, clock: &Clock) -> serde_json::Value {
-    let looks: Vec<_> =
-        contents.looks.iter().map(|(look, studies)| json!({ "look": look, "studies": studies })).collect();
-    json!({
-        "scope": contents.scope,
-        "machine": contents.machine,
-        "unit": { "error": "CIEDE2000", "time": "ns for a pixel, one thread" },
-        "colours": contents.colours,
-        "rounds": contents.rounds,
-        "frame": contents.frame,
-        "copy": contents.copy,
-        "looks": looks,
-        "growth": contents.growth,
-        "elsewhere": contents.elsewhere,
-        "seconds": clock.json(),
-    })
-}
-
-/// The advice, and where the rest is.
-fn said(contents: &Contents, files: &[String]) -> String {
-    let mut said = String::new();
-    for file in files {
-        let _ = writeln!(said, "{file}");
-    }
-    for (look, _) in &contents.looks {
-        let _ = writeln!(said, "{}", look.name);
-        for row in figure::front(&look.rows, figure::Which::Max) {
-            let (time, error) = (row.time.ns, row.error);
-            let (mean, max) = (text::figure(error.mean), text::figure(error.max));
-            let _ = writeln!(said, "  {:26} {:>8} ns  mean {mean}, max {max}", row.name(), text::figure(time));
-        }
-        if let Some(film) = look.rows.iter().find(|row| row.kind == Kind::Reference) {
-            let _ = writeln!(said, "  {:26} {:>8} ns", "the film itself", text::figure(film.time.ns));
-        }
-        for advice in words::advice(look, contents.copy, &contents.elsewhere) {
-            let _ = writeln!(said, "  {}: {}", advice.whom, advice.sentence);
-        }
-    }
-    let _ = writeln!(said, "copy: {:.2} ns\ntime: {}", contents.copy.ns, contents.clock);
-    said
 }

@@ -1,19 +1,19 @@
 use std::f64::consts::LOG2_10;
 
-use anyhow::Result;
 use onelight::film::{AmountCurve, LogExposure, PerLayer};
 use onelight::lut::{DirectForm, DirectParts, DirectPrint, Domain, Lut1d};
 use onelight::{DirectSettings, Nodes};
 use serde::Serialize;
 
-use super::{Colours, Miss};
-use crate::command::report::measure::Prepared;
+use super::colours::{Colours, Miss};
+use crate::error::Result;
+use crate::report::measure::Prepared;
 
 /// Curves as tables of so many points, read linearly.
 #[derive(Debug, Clone, Serialize)]
-pub(in crate::command::report) struct CurveRow {
-    pub(in crate::command::report) points: usize,
-    pub(in crate::command::report) miss: Miss,
+pub(in crate::report) struct CurveRow {
+    pub(in crate::report) points: usize,
+    pub(in crate::report) miss: Miss,
 }
 
 const POINTS: [usize; 7] = [64, 128, 256, 512, 1024, 2048, 4096];

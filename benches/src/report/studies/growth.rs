@@ -2,40 +2,40 @@
 
 use std::time::Instant;
 
-use anyhow::{Context, Result};
 use onelight::lut::{Channels, Interpolation, Lut3d, PixelsMut, Storage};
 use onelight::{DirectSettings, Nodes};
 use serde::Serialize;
 
-use super::rounds;
-use crate::command::report::forms::{Kind, Made, Scope};
-use crate::command::report::frame::Frame;
-use crate::command::report::machine::threads;
-use crate::command::report::measure::{Look, Prepared};
-use crate::command::report::stopwatch::{Pass, interleaved, map, mapping, pool};
-use crate::progress::bar;
+use crate::error::{Error, Result};
+use crate::progress::{OnProgress, Steps};
+use crate::report::forms::{Kind, Made};
+use crate::report::frame::Frame;
+use crate::report::machine::threads;
+use crate::report::measure::{Look, Prepared};
+use crate::report::scope::Scope;
+use crate::report::stopwatch::{Pass, interleaved, mapping, pool};
 
 /// One quantity over another, for one form.
 #[derive(Debug, Clone, Serialize)]
-pub(in crate::command::report) struct Measured {
-    pub(in crate::command::report) kind: Kind,
-    pub(in crate::command::report) name: String,
-    pub(in crate::command::report) points: Vec<(f64, f64)>,
+pub(in crate::report) struct Measured {
+    pub(in crate::report) kind: Kind,
+    pub(in crate::report) name: String,
+    pub(in crate::report) points: Vec<(f64, f64)>,
 }
 
 /// How cost grows, of the first look.
 #[derive(Debug, Serialize)]
-pub(in crate::command::report) struct Growth {
+pub(in crate::report) struct Growth {
     /// Megapixels, and milliseconds for all of them on one thread.
-    pub(in crate::command::report) picture: Vec<Measured>,
+    pub(in crate::report) picture: Vec<Measured>,
     /// Bytes of the two buffers that strips of a picture go through.
-    pub(in crate::command::report) buffers: usize,
+    pub(in crate::report) buffers: usize,
     /// Nodes along a side of the table, and nanoseconds for each pixel.
-    pub(in crate::command::report) table: Vec<Measured>,
+    pub(in crate::report) table: Vec<Measured>,
     /// Exponentials for each pixel, and nanoseconds for each pixel.
-    pub(in crate::command::report) nodes: Vec<Measured>,
+    pub(in crate::report) nodes: Vec<Measured>,
     /// Threads, and megapixels for each second.
-    pub(in crate::command::report) threads: Vec<Measured>,
+    pub(in crate::report) threads: Vec<Measured>,
 }
 
 /// Seconds that one form may take for one size of picture, all its rounds together.
@@ -43,21 +43,22 @@ const LONGEST: f64 = 10.0;
 /// Rows of the frame in a strip.
 const STRIP_ROWS: usize = 64;
 
-pub(in crate::command::report) fn growth(
+pub(in crate::report) fn growth(
     prepared: &Prepared,
     look: &Look,
     frame: &Frame,
     scope: Scope,
+    progress: OnProgress<'_>,
 ) -> Result<Growth> {
     let forms = usual(&prepared.made);
-    let progress = bar("growth", 3);
+    let progress = Steps::new("growth", 3, progress);
     let buffers = 2 * frame.strip(0, STRIP_ROWS)?.size().iter().product::<usize>() * 3 * size_of::<f32>();
     let picture = picture(&forms, frame, scope)?;
-    progress.inc(1);
+    progress.step();
     let table = table(&forms, frame, scope)?;
-    progress.inc(1);
+    progress.step();
     let threads = over_threads(&forms, frame, scope)?;
-    progress.finish_and_clear();
+    progress.step();
     Ok(Growth { picture, buffers, table, nodes: over_nodes(look), threads })
 }
 
@@ -99,7 +100,7 @@ fn picture(forms: &[&Made], frame: &Frame, scope: Scope) -> Result<Vec<Measured>
                 continue;
             }
             let (begun, mut best) = (Instant::now(), f64::INFINITY);
-            for _ in 0..rounds(scope) {
+            for _ in 0..scope.rounds() {
                 if begun.elapsed().as_secs_f64() + foreseen > LONGEST {
                     break;
                 }
@@ -107,7 +108,7 @@ fn picture(forms: &[&Made], frame: &Frame, scope: Scope) -> Result<Vec<Measured>
                 pool.install(|| -> Result<()> {
                     for first in (0..rows).step_by(rows_of_strip) {
                         let strip = frame.strip(first, rows_of_strip.min(rows - first))?;
-                        map(&form.form, &strip, &mut PixelsMut::new(&mut buffer, Channels::Rgb, strip.size())?)?;
+                        form.form.map(&strip, &mut PixelsMut::new(&mut buffer, Channels::Rgb, strip.size())?)?;
                     }
                     Ok(())
                 })?;
@@ -133,7 +134,7 @@ fn table(forms: &[&Made], frame: &Frame, scope: Scope) -> Result<Vec<Measured>> 
         }
     }
     let passes: Vec<Pass> = tables.iter().map(|(_, _, form)| mapping(form, frame)).collect();
-    let times = interleaved(&passes, frame, 1, rounds(scope), || {})?;
+    let times = interleaved(&passes, frame, 1, scope.rounds(), || {})?;
     let mut measured: Vec<Measured> = Vec::new();
     for ((made, size, _), time) in tables.iter().zip(times) {
         let point = (*size as f64, time.ns);
@@ -171,8 +172,8 @@ fn over_threads(forms: &[&Made], frame: &Frame, scope: Scope) -> Result<Vec<Meas
     // Every count on a small machine, doubling ones on a large one.
     let counts = (1..=all).filter(|n| all <= 8 || n.is_power_of_two() || *n == all);
     for count in counts {
-        let times = interleaved(&passes, frame, count, rounds(scope), || {})
-            .with_context(|| format!("timing on {count} threads"))?;
+        let times = interleaved(&passes, frame, count, scope.rounds(), || {})
+            .map_err(|error| Error::of(&format!("timing on {count} threads"), error))?;
         for (measured, time) in measured.iter_mut().zip(times) {
             measured.points.push((count as f64, 1e3 / time.ns));
         }

@@ -1,4 +1,3 @@
-use anyhow::Result;
 use onelight::film::{PerLayer, Tail};
 use onelight::lut::{DirectForm, DirectParts, DirectPrint};
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
@@ -6,24 +5,25 @@ use onelight::spectra::{Basis, SpectralShape};
 use onelight::{DirectSettings, Nodes, stock};
 use serde::Serialize;
 
-use super::{Colours, Miss};
-use crate::command::report::forms::Kind;
-use crate::command::report::measure::{Look, Prepared};
-use crate::compiled::Compiled;
+use super::colours::{Colours, Miss};
+use crate::error::Result;
+use crate::form::Form;
+use crate::report::forms::Kind;
+use crate::report::measure::{Look, Prepared};
 
 /// A set of wavelengths, or of exponentials that stand for them.
 #[derive(Debug, Clone, Serialize)]
-pub(in crate::command::report) struct GridRow {
-    pub(in crate::command::report) name: String,
+pub(in crate::report) struct GridRow {
+    pub(in crate::report) name: String,
     /// Exponentials of printing (0 for reversal film) and of projection.
-    pub(in crate::command::report) nodes: [usize; 2],
+    pub(in crate::report) nodes: [usize; 2],
     /// Projection by these, all else by 1 nm.
-    pub(in crate::command::report) projection: Miss,
+    pub(in crate::report) projection: Miss,
     /// Printing by these, all else by 1 nm.
-    pub(in crate::command::report) printing: Option<Miss>,
+    pub(in crate::report) printing: Option<Miss>,
     /// Both by these: what the direct form is certified with.
-    pub(in crate::command::report) both: Miss,
-    pub(in crate::command::report) ns: f64,
+    pub(in crate::report) both: Miss,
+    pub(in crate::report) ns: f64,
 }
 
 /// Every direct form of a look, taken apart.
@@ -32,7 +32,7 @@ pub(super) fn grids(prepared: &Prepared, look: &Look, colours: &Colours) -> Resu
     let mut rows = Vec::new();
     let direct = look.rows.iter().filter(|row| row.kind == Kind::Direct);
     let forms = prepared.made.iter().filter_map(|made| match &made.form {
-        Compiled::Direct(form) => Some((made, form)),
+        Form::Direct(form) => Some((made, form)),
         _ => None,
     });
     for ((made, form), row) in forms.zip(direct) {
@@ -63,12 +63,12 @@ fn with(fine: &DirectForm, change: impl FnOnce(DirectParts) -> DirectParts) -> R
 
 /// The exposure matrix integrated on a coarse grid.
 #[derive(Debug, Clone, Serialize)]
-pub(in crate::command::report) struct ExposureRow {
-    pub(in crate::command::report) step_nm: u16,
+pub(in crate::report) struct ExposureRow {
+    pub(in crate::report) step_nm: u16,
     /// With the matching vector of the fine grid.
-    pub(in crate::command::report) unmatched: Miss,
+    pub(in crate::report) unmatched: Miss,
     /// With a matching vector made on the coarse grid too: a grey card stays where it was.
-    pub(in crate::command::report) matched: Miss,
+    pub(in crate::report) matched: Miss,
 }
 
 /// Steps of the grids that the exposure matrix is tried on.

@@ -7,11 +7,11 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::runner::Outcome;
+use super::outcome::Outcome;
 
-/// Frames by what became of them.
+/// How many frames have been developed, were there already, and have failed.
 #[derive(Debug)]
-pub(super) struct Tally {
+pub(super) struct JobProgress {
     total: usize,
     pub(super) developed: AtomicUsize,
     pub(super) already_done: AtomicUsize,
@@ -19,7 +19,7 @@ pub(super) struct Tally {
     start: Instant,
 }
 
-impl Tally {
+impl JobProgress {
     pub(super) fn new(total: usize) -> Self {
         let [developed, already_done, failed] = Default::default();
         Self { total, developed, already_done, failed, start: Instant::now() }
@@ -38,14 +38,14 @@ impl Tally {
         [&self.developed, &self.already_done, &self.failed].map(|counter| counter.load(Ordering::Relaxed)).iter().sum()
     }
 
-    /// For a job that is told to stop.
-    pub(super) fn last_words(&self) -> String {
+    /// What is said where the job is stopped.
+    pub(super) fn when_stopped(&self) -> String {
         format!("stopped: {self}; the same command goes on from here")
     }
 }
 
 /// `37 of 100 frames, 4.1 frames/s, 16 s left, 1 failed`
-impl fmt::Display for Tally {
+impl fmt::Display for JobProgress {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (finished, developed) = (self.finished(), self.developed.load(Ordering::Relaxed));
         write!(f, "{finished} of {} frames", self.total)?;
@@ -83,7 +83,7 @@ fn duration(time: Duration) -> String {
 /// How often a line is written where there is no terminal.
 const LINE_EVERY: Duration = Duration::from_secs(10);
 
-/// Shows a [`Tally`] on the standard error.
+/// Shows a [`JobProgress`] on the standard error.
 pub(super) struct Display {
     pub(super) bar: ProgressBar,
     last_line: Instant,
@@ -98,14 +98,14 @@ impl Display {
     }
 
     /// After each frame.
-    pub(super) fn show(&mut self, tally: &Tally, outcome: &Outcome) {
+    pub(super) fn show(&mut self, progress: &JobProgress, outcome: &Outcome) {
         if let Outcome::Failed(why) = outcome {
             self.line(&format!("failed: {why}"));
         }
-        self.bar.set_message(tally.to_string());
-        self.bar.set_position(tally.finished() as u64);
+        self.bar.set_message(progress.to_string());
+        self.bar.set_position(progress.finished() as u64);
         if self.bar.is_hidden() && self.last_line.elapsed() >= LINE_EVERY {
-            self.line(&tally.to_string());
+            self.line(&progress.to_string());
             self.last_line = Instant::now();
         }
     }
@@ -141,13 +141,13 @@ mod tests {
     /// Frames that were there already say nothing of how long the others take.
     #[test]
     fn what_is_left_is_reckoned_from_developed_frames() {
-        let tally = Tally { start: Instant::now() - Duration::from_secs(10), ..Tally::new(100) };
-        tally.already_done.store(50, Ordering::Relaxed);
-        assert_eq!(tally.to_string(), "50 of 100 frames");
-        tally.developed.store(5, Ordering::Relaxed);
-        tally.failed.store(1, Ordering::Relaxed);
-        assert_eq!(tally.to_string(), "56 of 100 frames, 2.0 s/frame, 1 min 28 s left, 1 failed");
-        tally.developed.store(49, Ordering::Relaxed);
-        assert!(!tally.to_string().contains("left"), "{tally}");
+        let progress = JobProgress { start: Instant::now() - Duration::from_secs(10), ..JobProgress::new(100) };
+        progress.already_done.store(50, Ordering::Relaxed);
+        assert_eq!(progress.to_string(), "50 of 100 frames");
+        progress.developed.store(5, Ordering::Relaxed);
+        progress.failed.store(1, Ordering::Relaxed);
+        assert_eq!(progress.to_string(), "56 of 100 frames, 2.0 s/frame, 1 min 28 s left, 1 failed");
+        progress.developed.store(49, Ordering::Relaxed);
+        assert!(!progress.to_string().contains("left"), "{progress}");
     }
 }
