@@ -1,7 +1,7 @@
 //! Circles of modules: files of one crate that import each other.
 //!
-//! A file imports another where it names something that is defined there, in a `use` or in any other path. What a module only
-//! passes on (`pub use`) is followed to the file that defines it. `mod name;` alone imports nothing.
+//! A file imports another where it names something that is defined there, in a `use` or in any other path. A name that was passed on
+//! (`pub use`) is followed to the file that defines it; to pass a name on, or to declare `mod name;`, is to import nothing.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path as FilePath, PathBuf};
@@ -125,7 +125,7 @@ impl Tree {
     fn imports(&self) -> Imports {
         let mut imports = Imports::new();
         for (here, node) in self.nodes.iter().enumerate() {
-            for path in node.module.paths() {
+            for path in node.module.imports() {
                 let Some(to) = self.definition(here, path, MOST_HOPS) else { continue };
                 let (from, to) = (&node.file, &self.nodes[to].file);
                 if from != to {
@@ -176,10 +176,10 @@ impl Tree {
                 .collect();
             self.definition(here, &path, hops)
         };
-        if let Some((_, path)) = used.iter().find(|(known, _)| known == name) {
-            return follow(path, None);
+        if let Some(used) = used.iter().find(|used| used.name == name) {
+            return follow(&used.path, None);
         }
-        let globs = used.iter().filter(|(known, _)| known == "*").map(|(_, path)| path);
+        let globs = used.iter().filter(|used| used.name == "*").map(|used| &used.path);
         globs
             .filter_map(|path| {
                 let module: Path = path[..path.len() - 1].to_vec();
@@ -244,6 +244,12 @@ mod tests {
             ("src/lib.rs", "mod a; mod b; pub use a::A; pub use b::*;"),
             ("src/a.rs", "pub struct A;"),
             ("src/b.rs", "use crate::A; pub struct B;"),
+        ];
+        assert_eq!(found(&files), Vec::<String>::new());
+        // To pass on is not to import.
+        let files = [
+            ("src/lib.rs", "mod a; pub use a::A; pub struct B;"),
+            ("src/a.rs", "use crate::B; pub struct A;"),
         ];
         assert_eq!(found(&files), Vec::<String>::new());
         // Through a glob too.

@@ -36,7 +36,7 @@ const LAYERS: [Layer; 14] = [
     Layer {
         folder: "crates/film",
         allowed: &["onelight-spectra"],
-        foreign: &["printer", "lut", "projector", "screen", "display"],
+        foreign: &["printer", "lut", "projector", "screen", "transfercurve"],
         ..LIBRARY
     },
     Layer {

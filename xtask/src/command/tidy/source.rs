@@ -4,10 +4,20 @@ use std::collections::BTreeMap;
 
 use proc_macro2::{TokenStream, TokenTree};
 use syn::visit::{self, Visit};
-use syn::{Attribute, Ident, Item, ItemMod, ItemUse, Macro, UseTree};
+use syn::{Attribute, Ident, Item, ItemMod, ItemUse, Macro, UseTree, Visibility};
 
 /// A path as it is written, without generic arguments: `["super", "axis", "Axis"]`. That of a glob ends in `*`.
 pub(super) type Path = Vec<String>;
+
+/// A name that `use` brings into a module.
+#[derive(Debug, PartialEq)]
+pub(super) struct Use {
+    /// As it is known here; `*` stands for all names.
+    pub(super) name: String,
+    pub(super) path: Path,
+    /// `pub use`, of any visibility: the module passes the name on.
+    pub(super) passed_on: bool,
+}
 
 /// A module as its file shows it. What only tests see is left out.
 #[derive(Debug, Default)]
@@ -18,8 +28,8 @@ pub(super) struct Module {
     pub(super) inline: BTreeMap<String, Module>,
     /// Names of the functions, types, constants, traits and macros that are defined here.
     pub(super) defined: Vec<String>,
-    /// `use`: the name as it is known here (`*` for all), and the path.
-    pub(super) used: Vec<(String, Path)>,
+    /// Every name that `use` brings.
+    pub(super) used: Vec<Use>,
     /// Every other path of more than one segment.
     pub(super) written: Vec<Path>,
 }
@@ -41,27 +51,34 @@ impl Module {
         module
     }
 
-    /// Paths of `use` and all others.
+    /// Every path that is written here, those of `use` among them.
     pub(super) fn paths(&self) -> impl Iterator<Item = &Path> {
-        self.used.iter().map(|(_, path)| path).chain(&self.written)
+        self.used.iter().map(|used| &used.path).chain(&self.written)
     }
 
-    fn add_used(&mut self, tree: &UseTree, before: &[String]) {
+    /// Every path that the module itself makes use of: all but those it only passes on.
+    pub(super) fn imports(&self) -> impl Iterator<Item = &Path> {
+        let used = self.used.iter().filter(|used| !used.passed_on);
+        used.map(|used| &used.path).chain(&self.written)
+    }
+
+    fn add_used(&mut self, tree: &UseTree, before: &[String], passed_on: bool) {
         let with = |ident: &Ident| [before, &[ident.to_string()]].concat();
-        match tree {
-            UseTree::Path(path) => self.add_used(&path.tree, &with(&path.ident)),
-            UseTree::Group(group) => group.items.iter().for_each(|tree| self.add_used(tree, before)),
-            UseTree::Glob(_) => self.used.push(("*".to_owned(), [before, &["*".to_owned()]].concat())),
+        let (name, path) = match tree {
+            UseTree::Path(path) => return self.add_used(&path.tree, &with(&path.ident), passed_on),
+            UseTree::Group(group) => {
+                return group.items.iter().for_each(|tree| self.add_used(tree, before, passed_on));
+            }
+            UseTree::Glob(_) => ("*".to_owned(), [before, &["*".to_owned()]].concat()),
             // `a::{self}` is `a`.
             UseTree::Name(name) if name.ident == "self" => {
-                self.used.push((before.last().cloned().unwrap_or_default(), before.to_vec()));
+                (before.last().cloned().unwrap_or_default(), before.to_vec())
             }
-            UseTree::Name(name) => self.used.push((name.ident.to_string(), with(&name.ident))),
-            UseTree::Rename(rename) if rename.ident == "self" => {
-                self.used.push((rename.rename.to_string(), before.to_vec()));
-            }
-            UseTree::Rename(rename) => self.used.push((rename.rename.to_string(), with(&rename.ident))),
-        }
+            UseTree::Name(name) => (name.ident.to_string(), with(&name.ident)),
+            UseTree::Rename(rename) if rename.ident == "self" => (rename.rename.to_string(), before.to_vec()),
+            UseTree::Rename(rename) => (rename.rename.to_string(), with(&rename.ident)),
+        };
+        self.used.push(Use { name, path, passed_on });
     }
 
     /// Paths in the arguments of a macro, which are tokens to the parser.
@@ -133,9 +150,12 @@ impl Visit<'_> for Module {
     fn visit_item_use(&mut self, item: &ItemUse) {
         // `::name` is always a crate.
         if item.leading_colon.is_none() {
-            self.add_used(&item.tree, &[]);
+            self.add_used(&item.tree, &[], !matches!(item.vis, Visibility::Inherited));
         }
     }
+
+    /// `pub(in crate::a)` imports nothing.
+    fn visit_visibility(&mut self, _: &Visibility) {}
 
     fn visit_path(&mut self, path: &syn::Path) {
         if path.leading_colon.is_none() && path.segments.len() > 1 {
@@ -178,11 +198,16 @@ mod tests {
         text.split("::").map(str::to_owned).collect()
     }
 
+    fn used(name: &str, full: &str, passed_on: bool) -> Use {
+        Use { name: name.to_owned(), path: path(full), passed_on }
+    }
+
     #[test]
     fn paths_of_every_kind_are_found() {
         let text = r#"
             use super::{axis::{self, Axis}, text::plain as written, *};
             use ::std::fmt;
+            pub(in crate::nowhere) use crate::c::C;
             mod own;
             mod within { use super::super::far; pub struct Near; }
             /// crate::not_this
@@ -197,19 +222,20 @@ mod tests {
         let module = Module::read(text).unwrap();
         assert_eq!(module.files, ["own"]);
         assert_eq!(module.inline["within"].defined, ["Near"]);
-        assert_eq!(module.inline["within"].used, [("far".to_owned(), path("super::super::far"))]);
+        assert_eq!(module.inline["within"].used, [used("far", "super::super::far", false)]);
         assert_eq!(module.defined, ["f", "Local"]);
-        let used = [
-            ("axis", "super::axis"),
-            ("Axis", "super::axis::Axis"),
-            ("written", "super::text::plain"),
-            ("*", "super::*"),
+        let expected = [
+            used("axis", "super::axis", false),
+            used("Axis", "super::axis::Axis", false),
+            used("written", "super::text::plain", false),
+            used("*", "super::*", false),
+            used("C", "crate::c::C", true),
         ];
-        assert_eq!(module.used, used.map(|(name, full)| (name.to_owned(), path(full))));
+        assert_eq!(module.used, expected);
         for expected in ["crate::a::T", "super::b::U", "crate::c::length", "self::d::E", "own::g", "crate::h::Trait"] {
             assert!(module.written.contains(&path(expected)), "{expected}: {:?}", module.written);
         }
-        assert!(!format!("{module:?}").contains("this") && !format!("{module:?}").contains("fmt"), "{module:?}");
+        assert!(!format!("{module:?}").contains("this") && !format!("{module:?}").contains("nowhere"), "{module:?}");
     }
 
     #[test]
