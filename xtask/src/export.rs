@@ -8,9 +8,9 @@ use onelight::lut::{
     read_spi3d, read_strip, write_hald, write_ktx2, write_spi3d, write_strip,
 };
 
+use crate::atomic_file::WholeSet;
 use crate::compiled::{Compiled, Form};
 use crate::direct_file;
-use crate::whole::WholeSet;
 
 /// The file formats of a baked look.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

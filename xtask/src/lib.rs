@@ -1,31 +1,34 @@
-//! The onelight runner: `cargo xtask bake`, `develop`, `stocks`, `fixtures`. The only crate that touches files.
+//! The onelight runner, `cargo xtask`: flags, file names, progress and exit status. The only crate that opens paths.
 
-mod buffers;
+mod atomic_file;
+mod baker;
 mod certificate;
 mod command;
 mod compiled;
 mod direct_file;
 mod export;
 mod exposure;
+mod finish;
 mod folders;
-mod likeness;
 mod look;
 pub mod picture;
 mod plot;
 mod preview;
 mod progress;
-mod scene;
 mod scene_colours;
 mod sheet;
 mod switches;
-mod truth;
-mod whole;
+mod words;
 
-use std::io::{self, ErrorKind, Write as _};
+use std::io::{self, Write as _};
 use std::process::ExitCode;
 
-use anyhow::{Result, anyhow};
+use anyhow::Result;
 use clap::{Parser, Subcommand};
+
+// The picture writers know the module by this name until they are a crate.
+use atomic_file as whole;
+use finish::{Report, print};
 
 /// Film simulation for HDR pictures.
 #[derive(Parser)]
@@ -61,13 +64,6 @@ enum Command {
     Tidy(command::tidy::Arguments),
 }
 
-/// What a command says when it is done: text for people, or one JSON object for scripts.
-struct Report {
-    text: String,
-    json: serde_json::Value,
-    as_json: bool,
-}
-
 /// Runs what the command line asks for; 2 where it failed, with one sentence on the standard error.
 pub fn main() -> ExitCode {
     let printed = run(Arguments::parse().command).and_then(|report| print(&report));
@@ -75,18 +71,6 @@ pub fn main() -> ExitCode {
     // Where even this cannot be written, only the status is left to tell.
     let _ = writeln!(io::stderr(), "error: {error:#}");
     ExitCode::from(2)
-}
-
-/// Writes what a command says; a reader that has had enough (`| head`) is no error.
-fn print(report: &Report) -> Result<()> {
-    let mut out = io::stdout().lock();
-    let written = if report.as_json { writeln!(out, "{:#}", report.json) } else { write!(out, "{}", report.text) };
-    match written.and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(anyhow!("the result cannot be written to the standard output: {error}"))
-        }
-        _ => Ok(()),
-    }
 }
 
 fn run(command: Command) -> Result<Report> {

@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use onelight::{Aim, DyeModel, Process, TransferCurve, Word, WorkingSpace};
+use onelight::{Aim, DyeModel, Process, TransferCurve, WorkingSpace};
 
 use crate::switches::Switches;
+use crate::words::words;
 
 /// Longest description that is read.
 const MAX_LOOK_BYTES: u64 = 64 * 1024;
@@ -96,10 +96,4 @@ fn read(path: &Path) -> Result<Process> {
         bail!("{name}: more than {MAX_LOOK_BYTES} bytes, expected a look.toml");
     }
     Ok(Process::from_toml(&name, &text)?)
-}
-
-/// Takes the words of a choice, and lists them in the help.
-pub(crate) fn words<T: Word + Send + Sync>() -> impl TypedValueParser<Value = T> {
-    let words = T::ALL.iter().map(|(_, word, help)| PossibleValue::new(*word).help(*help));
-    PossibleValuesParser::new(words).try_map(|word| T::parse(&word))
 }

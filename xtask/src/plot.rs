@@ -11,7 +11,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::whole::write_whole;
+use crate::atomic_file::write_whole;
 
 const SIZE: (u32, u32) = (1500, 500);
 const RED: RGBColor = RGBColor(196, 48, 40);

@@ -10,7 +10,6 @@ use onelight::{Process, TransferCurve};
 
 use crate::compiled::Compiled;
 use crate::sheet::{BACKGROUND, caption, paste};
-use crate::truth;
 
 /// Exposures shown, in stops.
 const EXPOSURES: [f32; 3] = [-2.0, 0.0, 2.0];
@@ -23,7 +22,7 @@ const DOT: (u32, u32) = (2, 2);
 
 /// The sheet as PNG: the scene clipped to the display above, the look below.
 pub(crate) fn sheet(process: &Process, look: &Compiled) -> Result<Vec<u8>> {
-    let scene = truth::rgb((TILE.0 as usize, TILE.1 as usize))?;
+    let scene = onelight_fixtures::scene_rgb((TILE.0 as usize, TILE.1 as usize))?;
     let to_input = RgbSpace::SRGB.to_about(&process.input_space.space(), Chromaticity::black_body_6500_k())?;
     // The sheet is sRGB, whatever display the look is made for.
     let to_srgb = process.output_space.space().to_about(&RgbSpace::SRGB, Chromaticity::D65)?;

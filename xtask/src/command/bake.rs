@@ -7,12 +7,13 @@ use onelight::lut::{Certificate, Deviation, Law, Search, Storage, deviation};
 use onelight::{DirectSettings, Entries, Look, Nodes, Process, TableCoding, TransferCurve, Word, WorkingSpace};
 use serde_json::json;
 
+use crate::atomic_file::WholeSet;
 use crate::certificate::{Measure, in_words, to_six_stops};
 use crate::compiled::{Compiled, Form, Recipe, ShaperChoice, smallest_under};
 use crate::export::{Applied, Export, Format};
-use crate::look::{LookArguments, words};
+use crate::look::LookArguments;
 use crate::progress::Clock;
-use crate::whole::WholeSet;
+use crate::words::words;
 use crate::{Report, folders, preview, scene_colours};
 
 /// A table whose largest certified difference is above this deserves a warning, unless `--max-de` names another.

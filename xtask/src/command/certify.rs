@@ -4,13 +4,14 @@ use anyhow::Result;
 use clap::Args;
 use onelight::lut::{Certificate, Law, Search, Storage};
 use onelight::{Aim, Entries, Nodes, Process, TableCoding, Word, WorkingSpace};
+use onelight_benches::buffers;
 use serde_json::{Value, json};
 
+use crate::Report;
 use crate::certificate::{Measure, in_words, to_six_stops};
 use crate::compiled::{Compiled, Form, Recipe, ShaperChoice};
 use crate::look::LookArguments;
 use crate::progress::{Clock, bar};
-use crate::{Report, buffers};
 
 /// Colours of a thorough certificate, and of a short one.
 const COLOURS: usize = 1 << 18;

@@ -5,9 +5,10 @@ use anyhow::{Result, bail};
 use clap::Args;
 use onelight::film::{ExposureAxis, Origin, PerLayer, SpectralSensitivity};
 use onelight::{Process, Stock, StockKind, stock, stock_ids};
+use onelight_benches::sheet_fidelity;
 use serde_json::{Value, json};
 
-use crate::{Report, folders, likeness, plot};
+use crate::{Report, folders, plot};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -33,8 +34,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         Some(id) => one(id, arguments.out.as_deref())?,
         None if arguments.check => check()?,
         None if arguments.likeness => {
-            let found = likeness::all()?;
-            (likeness::table(&found), serde_json::to_value(found)?)
+            let found = sheet_fidelity::all()?;
+            (sheet_fidelity::table(&found), serde_json::to_value(found)?)
         }
         None => all()?,
     };

@@ -118,7 +118,7 @@ const BLOCK: usize = 4096;
 const FIT_SAMPLES_PER_NODE: usize = 4;
 
 /// A plain table moved towards the film between its nodes, over the range of its shaper.
-fn fitted_plain(film: &Look, shaper: &Shaper, table: &Lut3d) -> Result<Lut3d> {
+pub(crate) fn fitted_plain(film: &Look, shaper: &Shaper, table: &Lut3d) -> Result<Lut3d> {
     let stops = (shaper.max() / SceneSampler::MID_GREY).log2();
     let count = FIT_SAMPLES_PER_NODE * table.entries().len();
     let colours: Vec<[f64; 3]> = SceneSampler::new(-10.0f64.min(stops)..=stops)?.take(count).collect();

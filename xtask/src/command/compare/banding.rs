@@ -2,11 +2,11 @@
 
 use anyhow::Result;
 use onelight::Look;
+use onelight_benches::buffers::{CASES, Case, largest_step};
 
 use super::develop::{Distance, differences};
 use super::frame::WIDTH;
 use super::paper::{Tile, coded};
-use crate::buffers::{CASES, Case, largest_step};
 
 /// Rows of a ramp, and its ends in stops about mid grey.
 const HEIGHT: usize = 60;

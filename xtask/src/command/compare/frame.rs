@@ -10,7 +10,7 @@ use onelight::spectra::{Basis, Chromaticity, Reconstruction, RgbSpace, color_che
 
 use crate::command::develop::exposure::Exposure;
 use crate::picture::{Band, Description, Limits, Source, open};
-use crate::{scene_colours, truth};
+use crate::scene_colours;
 
 /// Width of a tile in pixels; height of the scene's.
 pub(super) const WIDTH: usize = 288;
@@ -51,7 +51,7 @@ impl Frame {
 
 /// The fixture scene.
 pub(super) fn scene() -> Result<Frame> {
-    let rgb = truth::rgb((WIDTH, SCENE_HEIGHT))?;
+    let rgb = onelight_fixtures::scene_rgb((WIDTH, SCENE_HEIGHT))?;
     Ok(Frame::new("scene".to_owned(), (WIDTH, SCENE_HEIGHT), &rgb))
 }
 

@@ -4,8 +4,8 @@ use std::time::{Duration, Instant};
 
 use anyhow::Result;
 
+use crate::atomic_file::NotOfThisFile;
 use crate::picture::{Band, BandSink, PictureReader};
-use crate::whole::NotOfThisFile;
 
 /// How long each step was at work. Steps run beside each other, so that their sum is more than what passed.
 #[derive(Debug, Clone, Copy, Default)]

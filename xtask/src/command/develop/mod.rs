@@ -3,6 +3,7 @@ pub(crate) mod exposure;
 mod film;
 mod job;
 mod light;
+mod paths;
 mod sequence;
 
 use std::fmt::Write as _;
@@ -17,12 +18,14 @@ use self::exposure::Exposure;
 use self::film::{Film, Form};
 use self::job::{Developed, Order, Settings, Target, develop_picture};
 use self::light::InputPrimaries;
+use self::paths::same_file;
 use self::sequence::{FrameNumbers, Memory, Shard, Summary};
 use crate::exposure::ExposureArguments;
-use crate::look::{LookArguments, words};
+use crate::look::LookArguments;
 use crate::picture::{Bits, Limits};
 use crate::progress::{Clock, bar};
-use crate::{Report, folders, whole};
+use crate::words::words;
+use crate::{Report, atomic_file, folders};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -131,7 +134,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         let summary = Summary { input, output, notes, as_json: arguments.json };
         return sequence::run(&settings, plan, memory.unwrap_or_default(), clock, summary);
     }
-    whole::remove_leftovers([arguments.output.as_path()]);
+    atomic_file::remove_leftovers([arguments.output.as_path()]);
     let progress = bar("developing", 0);
     let order = Order { input: &arguments.input, output: &arguments.output, digest: None };
     let developed = clock.time("develop", || develop_picture(&settings, &order, &progress));
@@ -161,10 +164,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         "seconds_side_by_side": steps,
     });
     Ok(Report { text, json, as_json: arguments.json })
-}
-
-fn same_file(a: &Path, b: &Path) -> bool {
-    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
 fn target(path: &Path, bits: Option<&str>) -> Result<Target> {
