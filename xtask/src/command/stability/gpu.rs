@@ -73,7 +73,7 @@ mod with {
                 Compiled::Direct(direct) => Form::from(direct.as_ref()),
                 Compiled::Coded { .. } => bail!("a table of coded light has no shader"),
             };
-            let settings = LookSettings { storage: Storage::F32, fetch: Fetch::Texels };
+            let settings = LookSettings { storage: Storage::F32, fetch: Fetch::Texels, ..Default::default() };
             let pass = FilmPass::with_settings(&self.device, &self.queue, form, TextureFormat::Rgba32Float, &settings)?;
             let rows = (colours.len() as u32).div_ceil(WIDTH);
             let size = Extent3d { width: WIDTH, height: rows, depth_or_array_layers: 1 };
