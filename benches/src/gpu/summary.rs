@@ -104,7 +104,7 @@ impl Forms {
     }
 
     fn subjects(&self) -> [Subject<'_>; 5] {
-        let settings = |fetch| LookSettings { fetch, storage: Storage::F16 };
+        let settings = |fetch| LookSettings { fetch, storage: Storage::F16, ..Default::default() };
         let (texels, filtered) = (settings(Fetch::Texels), settings(Fetch::Filtered));
         [
             Subject { form: (&self.plain).into(), settings: filtered },

@@ -76,7 +76,7 @@ mod with {
                 Form::Structured(lut) => onelight_gpu::Form::from(lut.as_ref()),
                 Form::Direct(direct) => onelight_gpu::Form::from(direct.as_ref()),
             };
-            let settings = LookSettings { storage: Storage::F32, fetch: Fetch::Texels };
+            let settings = LookSettings { storage: Storage::F32, fetch: Fetch::Texels, ..Default::default() };
             let pass = FilmPass::with_settings(&self.device, &self.queue, form, TextureFormat::Rgba32Float, &settings)?;
             let rows = (colours.len() as u32).div_ceil(WIDTH);
             let size = Extent3d { width: WIDTH, height: rows, depth_or_array_layers: 1 };

@@ -5,11 +5,12 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Module, ShaderStage};
 use wgpu::TextureFormat;
 
-use super::{Fetch, bake, compute, draw, wgsl};
 use crate::form::FormKind;
+use crate::settings::{Bindings, Fetch, LookSettings};
+use crate::shader::{bake, compute, draw, wgsl};
 use crate::target::Target;
 
-fn valid(text: &str) -> (Module, ModuleInfo) {
+pub(crate) fn valid(text: &str) -> (Module, ModuleInfo) {
     let module = naga::front::wgsl::parse_str(text).unwrap_or_else(|error| panic!("{}", error.emit_to_string(text)));
     let info = Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(&module);
     let info = info.unwrap_or_else(|error| panic!("{}", error.emit_to_string(text)));
@@ -80,7 +81,7 @@ fn every_shader_is_translated() {
 fn texts_to_paste_are_whole_and_keep_to_their_names() {
     for (kind, fetch) in FormKind::ALL.into_iter().flat_map(|kind| [Fetch::Texels, Fetch::Filtered].map(|f| (kind, f)))
     {
-        let text = wgsl(kind, fetch);
+        let text = wgsl(kind, &LookSettings { fetch, ..Default::default() });
         // An engine's own shader around it.
         let engine = "@fragment fn tone(@location(0) hdr: vec3f) -> @location(0) vec4f { return vec4f(onelight_develop(hdr), 1.0); }";
         let (module, info) = valid(&format!("{text}\n{engine}"));
@@ -91,6 +92,33 @@ fn texts_to_paste_are_whole_and_keep_to_their_names() {
         let constants = module.constants.iter().filter_map(|(_, constant)| constant.name.as_deref());
         for name in ours.chain(globals).chain(constants) {
             assert!(name.to_lowercase().starts_with("onelight"), "{name}");
+        }
+    }
+}
+
+#[test]
+fn bindings_are_where_they_are_asked_for() {
+    for (kind, fetch) in FormKind::ALL.into_iter().flat_map(|kind| [Fetch::Texels, Fetch::Filtered].map(|f| (kind, f)))
+    {
+        // A first binding below 4 would meet numbers that are still to be moved.
+        for bindings in
+            [Bindings { group: 0, first: 1 }, Bindings { group: 3, first: 2 }, Bindings { group: 1, first: 40 }]
+        {
+            let (module, _) = valid(&wgsl(kind, &LookSettings { fetch, bindings, ..Default::default() }));
+            let mut found: Vec<_> = module
+                .global_variables
+                .iter()
+                .map(|(_, variable)| {
+                    let binding = variable.binding.unwrap();
+                    assert_eq!(binding.group, bindings.group, "{kind} {fetch:?}");
+                    (binding.binding - bindings.first, variable.name.clone().unwrap())
+                })
+                .collect();
+            found.sort();
+            let names = ["onelight_look", "onelight_table", "onelight_points", "onelight_filter"];
+            for (offset, name) in found {
+                assert_eq!(names[offset as usize], name, "{kind} {fetch:?} {bindings:?}");
+            }
         }
     }
 }

@@ -1,15 +1,15 @@
-//! A window whose frame is developed on film: `cargo run --example viewer`.
+//! A window whose frame is developed on film: `cargo run -p onelight-gpu-examples --features window --example viewer`.
 //!
 //! Up and down change the exposure by a third of a stop, left and right the stock; each is an upload into the pass's
 //! resources. Escape ends.
 
-mod scene;
-
 use std::error::Error;
+use std::process::ExitCode;
 use std::sync::Arc;
 
 use onelight::DirectSettings;
 use onelight_gpu::{FilmPass, wgpu};
+use onelight_gpu_examples::scene;
 use onelight_lut::{DirectForm, DirectParts};
 use pollster::block_on;
 use wgpu::{CurrentSurfaceTexture, Device, Queue, Surface, SurfaceConfiguration, Texture};
@@ -22,16 +22,26 @@ use winit::window::{Window, WindowId};
 
 const STOCKS: [&str; 5] = ["kodak-5207", "kodak-5219", "kodak-portra-400", "kodak-ektachrome-100", "fuji-velvia-50"];
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
     let forms = STOCKS.map(|stock| -> Result<DirectForm, onelight::Error> {
         onelight::Process::for_camera(stock)?.compile()?.direct(&DirectSettings::default())
     });
     let forms = forms.into_iter().collect::<Result<Vec<_>, _>>()?;
     let event_loop = EventLoop::new()?;
     let display = event_loop.owned_display_handle();
-    let mut viewer = Viewer { display, forms, stock: 0, thirds: 0, frame: None };
+    let mut viewer = Viewer { display, forms, stock: 0, thirds: 0, frame: None, done: Ok(()) };
     event_loop.run_app(&mut viewer)?;
-    Ok(())
+    viewer.done
 }
 
 struct Viewer {
@@ -41,9 +51,11 @@ struct Viewer {
     /// Exposure in thirds of a stop.
     thirds: i32,
     frame: Option<Frame>,
+    /// What ended the program, if not the user.
+    done: Result<(), Box<dyn Error>>,
 }
 
-/// What a window needs to be drawn.
+/// A window with its surface, and the pass that draws into it.
 struct Frame {
     window: Arc<Window>,
     surface: Surface<'static>,
@@ -76,7 +88,7 @@ impl Viewer {
             .get_default_config(&adapter, size.width.max(1), size.height.max(1))
             .ok_or("the window's surface cannot be drawn to by this adapter")?;
         surface.configure(&device, &configuration);
-        let hdr = scene::texture(&device, &queue, configuration.width, configuration.height);
+        let hdr = scene::texture(&device, &queue, [configuration.width, configuration.height]);
         let film = FilmPass::new(&device, &queue, &self.form()?, configuration.format)?;
         Ok(Frame { window, surface, configuration, device, queue, hdr, film })
     }
@@ -84,7 +96,7 @@ impl Viewer {
     /// Shows the stock and exposure in use.
     fn change(&self) -> Result<(), Box<dyn Error>> {
         let Some(frame) = &self.frame else { return Ok(()) };
-        frame.film.swap(&frame.queue, &self.form()?)?;
+        frame.film.upload(&frame.queue, &self.form()?)?;
         let title = format!("{}  {:+.1} stops", STOCKS[self.stock], f64::from(self.thirds) / 3.0);
         frame.window.set_title(&title);
         frame.window.request_redraw();
@@ -105,11 +117,20 @@ impl Viewer {
     }
 }
 
+impl Viewer {
+    fn end_on_error(&mut self, event_loop: &ActiveEventLoop, done: Result<(), Box<dyn Error>>) {
+        if done.is_err() {
+            self.done = done;
+            event_loop.exit();
+        }
+    }
+}
+
 impl Frame {
     fn resize(&mut self, width: u32, height: u32) {
         (self.configuration.width, self.configuration.height) = (width.max(1), height.max(1));
         self.surface.configure(&self.device, &self.configuration);
-        self.hdr = scene::texture(&self.device, &self.queue, self.configuration.width, self.configuration.height);
+        self.hdr = scene::texture(&self.device, &self.queue, [self.configuration.width, self.configuration.height]);
         self.window.request_redraw();
     }
 
@@ -147,7 +168,8 @@ impl Frame {
 impl ApplicationHandler for Viewer {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         let opened = self.open(event_loop).map(|frame| self.frame = Some(frame));
-        end_on_error(event_loop, opened.and_then(|()| self.change()));
+        let opened = opened.and_then(|()| self.change());
+        self.end_on_error(event_loop, opened);
     }
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
@@ -169,13 +191,6 @@ impl ApplicationHandler for Viewer {
             ) => self.key(event_loop, &logical_key),
             _ => Ok(()),
         };
-        end_on_error(event_loop, done);
-    }
-}
-
-fn end_on_error(event_loop: &ActiveEventLoop, done: Result<(), Box<dyn Error>>) {
-    if let Err(error) = done {
-        eprintln!("error: {error}");
-        event_loop.exit();
+        self.end_on_error(event_loop, done);
     }
 }

@@ -10,7 +10,7 @@ const STOPS: [f32; 2] = [-7.0, 7.0];
 /// Part of the height that hues take.
 const HUES: f32 = 0.8;
 
-/// The light at a place of the picture; both coordinates are 0 to 1.
+/// Scene-linear RGB at a place of the picture; both coordinates go from 0 to 1, from the top left corner.
 fn light(x: f32, y: f32) -> [f32; 3] {
     let level = 0.18 * (STOPS[0] + (STOPS[1] - STOPS[0]) * x).exp2();
     if y > HUES {
@@ -23,12 +23,20 @@ fn light(x: f32, y: f32) -> [f32; 3] {
     [0.0, 4.0, 2.0].map(|shift| level * (0.05 + 0.95 * channel(shift).clamp(0.0, 1.0)))
 }
 
-/// The picture as a texture of half floats.
-pub(crate) fn texture(device: &Device, queue: &Queue, width: u32, height: u32) -> Texture {
-    let size = Extent3d { width, height, depth_or_array_layers: 1 };
+/// The picture's pixels as half floats, red, green, blue, alpha, row by row: the bytes of a texture of `Rgba16Float`.
+pub fn bytes([width, height]: [u32; 2]) -> Vec<u8> {
+    let places = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
+    let pixels = places.map(|[x, y]| light((x as f32 + 0.5) / width as f32, (y as f32 + 0.5) / height as f32));
+    pixels.flat_map(|[r, g, b]| [r, g, b, 1.0]).flat_map(|v| half::f16::from_f32(v).to_ne_bytes()).collect()
+}
+
+/// The picture as a texture of `Rgba16Float` that a pass can read.
+pub fn texture(device: &Device, queue: &Queue, size: [u32; 2]) -> Texture {
+    let [width, height] = size;
+    let extent = Extent3d { width, height, depth_or_array_layers: 1 };
     let texture = device.create_texture(&TextureDescriptor {
         label: Some("scene"),
-        size,
+        size: extent,
         mip_level_count: 1,
         sample_count: 1,
         dimension: TextureDimension::D2,
@@ -36,11 +44,7 @@ pub(crate) fn texture(device: &Device, queue: &Queue, width: u32, height: u32) -
         usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST,
         view_formats: &[],
     });
-    let places = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
-    let pixels = places.map(|[x, y]| light((x as f32 + 0.5) / width as f32, (y as f32 + 0.5) / height as f32));
-    let bytes: Vec<u8> =
-        pixels.flat_map(|[r, g, b]| [r, g, b, 1.0]).flat_map(|v| half::f16::from_f32(v).to_ne_bytes()).collect();
     let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(8 * width), rows_per_image: Some(height) };
-    queue.write_texture(texture.as_image_copy(), &bytes, layout, size);
+    queue.write_texture(texture.as_image_copy(), &bytes(size), layout, extent);
     texture
 }

@@ -1,21 +1,32 @@
-//! Writes a WebGPU page that needs nothing else: `cargo run --example page [film.html [stock]]`.
+//! Writes a WebGPU page that needs nothing else: `cargo run -p onelight-gpu-examples --example page [film.html [stock]]`.
 //!
 //! The page's own shader calls `onelight_develop`; the look comes as bytes.
 
 use std::error::Error;
+use std::process::ExitCode;
 
-use onelight_gpu::{CURVE_ROWS, Fetch, FormKind, LookBytes, MAX_POINTS, wgsl};
-use onelight_lut::Storage;
+use onelight_gpu::{CURVE_ROWS, FormKind, LookBytes, LookSettings, MAX_POINTS, wgsl};
 use serde_json::json;
 
 const PAGE: &str = include_str!("page.html");
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let path = arguments.next().unwrap_or_else(|| "film.html".to_owned());
     let stock = arguments.next().unwrap_or_else(|| "kodak-5207".to_owned());
     let form = onelight::Process::for_camera(&stock)?.compile()?.direct(&Default::default())?;
-    let look = LookBytes::new(&form, Storage::F16)?;
+    let settings = LookSettings::default();
+    let look = LookBytes::new(&form, settings.storage)?;
     let curves = look
         .curves
         .iter()
@@ -26,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         "width": MAX_POINTS,
         "rows": CURVE_ROWS,
     });
-    let shader = json!(wgsl(FormKind::Direct, Fetch::Texels));
+    let shader = json!(wgsl(FormKind::Direct, &settings));
     let page = PAGE
         .replace("LOOK_BYTES", &bytes.to_string())
         .replace("LOOK_WGSL", &shader.to_string())

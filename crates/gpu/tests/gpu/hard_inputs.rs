@@ -7,7 +7,7 @@ use wgpu::TextureFormat::{Rgba8Unorm, Rgba16Float, Rgba32Float};
 
 use crate::adapter::gpu;
 use crate::looks::{apply, looks};
-use crate::picture::{Way, develop, floats, halves, largest, source};
+use crate::picture::{Verb, develop, floats, halves, largest, source};
 
 /// As in the parity tests.
 const PARITY: f32 = 1e-5;
@@ -45,11 +45,13 @@ fn hard_pixels_are_those_of_the_twin() {
     for (look, format) in looks().iter().flat_map(|look| [Rgba32Float, Rgba16Float].map(|format| (look, format))) {
         let source = source(gpu, SIZE, format, &pixels);
         let read = |v: f32| if format == Rgba16Float { f16::from_f32(v).to_f32() } else { v };
-        for (form, way) in look.forms().into_iter().flat_map(|form| [Way::Encode, Way::Draw].map(|way| (form, way))) {
+        for (form, verb) in
+            look.forms().into_iter().flat_map(|form| [Verb::Encode, Verb::Draw].map(|verb| (form, verb)))
+        {
             let pass = FilmPass::with_settings(&gpu.device, &gpu.queue, form, Rgba32Float, &settings).unwrap();
-            let found = floats(&develop(gpu, &pass, &source, way));
+            let found = floats(&develop(gpu, &pass, &source, verb));
             let difference = largest(&found, pixels.iter().map(|&[r, g, b, _]| apply(form, [r, g, b].map(read))));
-            assert!(difference <= PARITY, "{} {} {format:?} {way:?}: {difference:e}", look.name, form.kind());
+            assert!(difference <= PARITY, "{} {} {format:?} {verb:?}: {difference:e}", look.name, form.kind());
             for (found, given) in found.iter().zip(&pixels) {
                 let alpha = read(given[3]);
                 let alpha = if alpha.is_nan() { 0.0 } else { alpha.clamp(-1e30, 1e30) };
@@ -65,9 +67,9 @@ fn nothing_overflows_a_half() {
     let pixels = pixels();
     let source = source(gpu, SIZE, Rgba32Float, &pixels);
     let look = &looks()[0];
-    for (form, way) in look.forms().into_iter().flat_map(|form| [Way::Encode, Way::Draw].map(|way| (form, way))) {
+    for (form, verb) in look.forms().into_iter().flat_map(|form| [Verb::Encode, Verb::Draw].map(|verb| (form, verb))) {
         let pass = FilmPass::new(&gpu.device, &gpu.queue, form, Rgba16Float).unwrap();
-        let found = halves(&develop(gpu, &pass, &source, way));
+        let found = halves(&develop(gpu, &pass, &source, verb));
         for (found, given) in found.iter().zip(&pixels) {
             assert!(found.iter().all(|v| v.is_finite()), "{given:?} became {found:?}");
             if given[3] > 65504.0 {
@@ -82,9 +84,9 @@ fn alpha_saturates_in_integers() {
     let Some(gpu) = gpu() else { return };
     let pixels = pixels();
     let source = source(gpu, SIZE, Rgba32Float, &pixels);
-    for way in [Way::Encode, Way::Draw] {
+    for verb in [Verb::Encode, Verb::Draw] {
         let pass = FilmPass::new(&gpu.device, &gpu.queue, &looks()[0].direct, Rgba8Unorm).unwrap();
-        let found = develop(gpu, &pass, &source, way);
+        let found = develop(gpu, &pass, &source, verb);
         for (found, given) in found.chunks(4).zip(&pixels) {
             let expected = (given[3] * 255.0 + 0.5) as u8;
             assert!(found[3].abs_diff(expected) <= 1, "alpha {} became {}", given[3], found[3]);
