@@ -1,7 +1,6 @@
 use onelight_film::{AmountCurve, Density, DyeAmount, LogExposure, PerLayer, Stock, StockKind};
 
-use crate::duplication::expect_kind;
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind, expect_kind};
 use crate::projection::Projection;
 
 /// What an 18 % grey card should look like on the screen.
@@ -30,7 +29,7 @@ impl EquivalentNeutralDensity {
         if (0.05..=3.0).contains(&density) {
             Ok(Self(density))
         } else {
-            Err(Kind::EndDensity { found: density }.into())
+            Err(ErrorKind::GreyDensity { found: density }.into())
         }
     }
 
@@ -56,15 +55,15 @@ pub const NEUTRAL_DENSITY: f64 = 0.7;
 /// If the film is no print film, or a curve does not reach the aim.
 pub fn print_mid_grey(print: &Stock) -> Result<PerLayer<LogExposure>, Error> {
     expect_kind(print, StockKind::Print)?;
-    let (aim, _) = print.aim().ok_or(Kind::Misplaced {
+    let aim = print.aim().ok_or(ErrorKind::WrongKind {
         stock: print.id().to_owned(),
         found: "print film without an aim",
         expected: "print film with one",
     })?;
-    print.characteristic().zip_map(aim, |curve, d| (curve, d)).try_map(|(curve, Density(d)), layer| {
+    print.characteristic().zip_map(aim.status_a, |curve, d| (curve, d)).try_map(|(curve, Density(d)), layer| {
         curve.log_exposure(Density(d)).ok_or_else(|| {
             let expected = format!("{:.3} to {:.3}", curve.d_min().0, curve.d_max().0);
-            Kind::Unreachable { stock: print.id().to_owned(), layer, found: format!("a density of {d}"), expected }
+            ErrorKind::Unreachable { stock: print.id().to_owned(), layer, found: format!("a density of {d}"), expected }
                 .into()
         })
     })
@@ -113,10 +112,10 @@ fn exposures(
 ) -> Result<PerLayer<LogExposure>, Error> {
     curves.zip_map(amounts, |curve, a| (curve, a)).try_map(|(curve, amount), layer| {
         curve.log_exposure(amount).ok_or_else(|| {
-            let (low, high) = curve.amounts();
+            let (low, high) = curve.amount_range().into_inner();
             let (found, expected) =
                 (format!("a dye amount of {:.3}", amount.0), format!("{:.3} to {:.3}", low.0, high.0));
-            Kind::Unreachable { stock: stock.to_owned(), layer, found, expected }.into()
+            ErrorKind::Unreachable { stock: stock.to_owned(), layer, found, expected }.into()
         })
     })
 }

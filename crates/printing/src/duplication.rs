@@ -2,8 +2,9 @@ use nalgebra::{Matrix3, Vector3};
 use onelight_film::{DyeAmount, Dyes, LogExposure, PerLayer, Stock, StockKind, Tail};
 use onelight_spectra::SpectralDistribution;
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind, expect_kind};
 use crate::printer::{Printer, PrinterLight, PrinterLights};
+use crate::spectral_row::{SpectralRow, transmitted};
 
 /// How the printer's lights are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -135,11 +136,11 @@ impl Duplication {
         if lights.to_array().iter().all(|&g| g > 0.0) {
             return Ok(PrinterLights(lights));
         }
-        Err(Kind::NegativeLight { negative: self.negative.clone(), print: self.print.clone(), lights }.into())
+        Err(ErrorKind::NegativeLight { negative: self.negative.clone(), print: self.print.clone(), lights }.into())
     }
 
     fn dependent(&self) -> Error {
-        Kind::Dependent { negative: self.negative.clone(), print: self.print.clone() }.into()
+        ErrorKind::Dependent { negative: self.negative.clone(), print: self.print.clone() }.into()
     }
 }
 
@@ -162,31 +163,6 @@ pub struct LitDuplication {
     rows: Vec<SpectralRow>,
 }
 
-/// What a film and its light do at one wavelength: the light that passes adds `weights * 10^-(base + dyes . amounts)` to three
-/// sums, which are exposures or tristimulus values.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SpectralRow {
-    /// Density of one unit of each dye: cyan, magenta, yellow.
-    pub dyes: [f64; 3],
-    /// Density of the film without any.
-    pub base: f64,
-    /// What each sum gets of light that passes unhindered; step of the grid and trapezoid included.
-    pub weights: [f64; 3],
-}
-
-/// Sum over wavelengths of weights times 10^-(base + dyes . amounts).
-pub(crate) fn transmitted(rows: &[SpectralRow], amounts: [f64; 3]) -> [f64; 3] {
-    let mut sum = [0.0; 3];
-    for SpectralRow { dyes, base, weights } in rows {
-        let density = base + dyes[0] * amounts[0] + dyes[1] * amounts[1] + dyes[2] * amounts[2];
-        let passed = (-std::f64::consts::LN_10 * density).exp();
-        for (sum, weight) in sum.iter_mut().zip(weights) {
-            *sum += weight * passed;
-        }
-    }
-    sum
-}
-
 impl LitDuplication {
     /// Log exposure of the print's layers behind a negative that holds `amounts`.
     #[must_use]
@@ -198,21 +174,5 @@ impl LitDuplication {
     #[must_use]
     pub fn rows(&self) -> &[SpectralRow] {
         &self.rows
-    }
-}
-
-pub(crate) fn expect_kind(stock: &Stock, expected: StockKind) -> Result<(), Error> {
-    if stock.kind() == expected {
-        return Ok(());
-    }
-    let (found, expected) = (kind_name(stock.kind()), kind_name(expected));
-    Err(Kind::Misplaced { stock: stock.id().to_owned(), found, expected }.into())
-}
-
-fn kind_name(kind: StockKind) -> &'static str {
-    match kind {
-        StockKind::Negative => "negative",
-        StockKind::Reversal => "reversal film",
-        StockKind::Print => "print film",
     }
 }

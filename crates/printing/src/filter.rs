@@ -1,4 +1,5 @@
-use onelight_spectra::{NumberTable, Pchip, SpectralDistribution, SpectralShape, quantity::OpticalDensity};
+use onelight_film::NumberTable;
+use onelight_spectra::{Pchip, SpectralDistribution, SpectralShape, quantity::OpticalDensity};
 
 use crate::error::Error;
 
@@ -39,12 +40,13 @@ impl Wratten {
     pub fn density(self, shape: SpectralShape) -> Result<SpectralDistribution<OpticalDensity>, Error> {
         let text = include_str!("../data/wratten_printing_set.csv");
         let table = NumberTable::parse("wratten_printing_set.csv", text)?;
-        let (nm, density) = (table.column("wavelength_nm")?, table.column(self.column())?);
-        let first = density.iter().position(Option::is_some).unwrap_or(0);
-        let last = density.iter().rposition(Option::is_some).unwrap_or(0);
-        let x = nm[first..=last].iter().map(|v| v.unwrap_or(f64::NAN)).collect();
-        let y = density[first..=last].iter().map(|d| d.unwrap_or(CHART_LIMIT)).collect();
-        let curve = Pchip::new(x, y)?;
+        // The chart's values, and its limit wherever it is blank between the first and the last of them.
+        let published = table.points("wavelength_nm", self.column())?;
+        let ends = published.x[0]..=published.x[published.x.len() - 1];
+        let chart = table.column("wavelength_nm")?.iter().zip(table.column(self.column())?);
+        let chart = chart.filter_map(|(nm, density)| Some((*nm.as_ref()?, density.unwrap_or(CHART_LIMIT))));
+        let (nm, density) = chart.filter(|(nm, _)| ends.contains(nm)).unzip();
+        let curve = Pchip::new(nm, density)?;
         Ok(SpectralDistribution::from_fn(shape, |nm| curve.at(nm))?)
     }
 }

@@ -41,10 +41,17 @@ mod error;
 mod filter;
 mod printer;
 mod projection;
+mod spectral_row;
 
 pub use aim::{Aim, EquivalentNeutralDensity, NEUTRAL_DENSITY, print_mid_grey, print_target, reversal_target};
-pub use duplication::{Calibration, Duplication, LitDuplication, SpectralRow};
+pub use duplication::{Calibration, Duplication, LitDuplication};
 pub use error::Error;
 pub use filter::{HeatGlass, Wratten};
 pub use printer::{Filters, Infrared, POINT_LOG_EXPOSURE, Printer, PrinterLight, PrinterLights};
 pub use projection::{Projection, Projector};
+pub use spectral_row::SpectralRow;
+
+/// The examples of README.md, compiled and run with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

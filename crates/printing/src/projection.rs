@@ -5,8 +5,8 @@ use onelight_spectra::{
     Chromaticity, Kelvin, Observer, RgbSpace, SpectralDistribution, SpectralShape, black_body, xenon_lamp,
 };
 
-use crate::duplication::{SpectralRow, transmitted};
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
+use crate::spectral_row::{SpectralRow, transmitted};
 
 /// The light that a print or a reversal film is seen by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -56,7 +56,7 @@ impl Projection {
     pub fn new(dyes: Dyes, projector: Projector, output: &RgbSpace) -> Result<Self, Error> {
         let shape = SpectralShape::VISIBLE;
         if dyes.shape() != shape {
-            return Err(Kind::Grid { found: dyes.shape() }.into());
+            return Err(ErrorKind::Grid { found: dyes.shape() }.into());
         }
         let observer = Observer::cie_1931();
         let lamp = projector.lamp(shape);
@@ -90,8 +90,8 @@ impl Projection {
 
     /// Tristimulus values; Y of the bare lamp is 1.
     #[must_use]
-    pub fn xyz(&self, amounts: PerLayer<DyeAmount>) -> Vector3<f64> {
-        Vector3::from(transmitted(&self.rows, amounts.map(|a| a.0).to_array()))
+    pub fn xyz(&self, amounts: PerLayer<DyeAmount>) -> [f64; 3] {
+        transmitted(&self.rows, amounts.map(|a| a.0).to_array())
     }
 
     /// Wavelength by wavelength, by 1 nm: the sums are the tristimulus values.
@@ -102,8 +102,8 @@ impl Projection {
 
     /// Display-linear RGB of tristimulus values.
     #[must_use]
-    pub fn rgb_of(&self, xyz: &Vector3<f64>) -> [f64; 3] {
-        (self.to_rgb * xyz).data.0[0]
+    pub fn rgb_of(&self, xyz: [f64; 3]) -> [f64; 3] {
+        (self.to_rgb * Vector3::from(xyz)).into()
     }
 
     /// The matrix from tristimulus values to display-linear RGB.
@@ -115,7 +115,7 @@ impl Projection {
     /// Display-linear RGB; the bare lamp is (1, 1, 1) unless the projector is unadapted.
     #[must_use]
     pub fn rgb(&self, amounts: PerLayer<DyeAmount>) -> [f64; 3] {
-        self.rgb_of(&self.xyz(amounts))
+        self.rgb_of(self.xyz(amounts))
     }
 
     /// Amounts that look like the bare lamp behind a grey filter of `density`; `stock` is named if there are none.
@@ -134,7 +134,7 @@ impl Projection {
             let Some(step) = slope.lu().solve(&miss) else { break };
             amounts -= step * (0.5 / step.amax()).min(1.0);
         }
-        Err(Kind::NoAmounts { stock: stock.to_owned(), density }.into())
+        Err(ErrorKind::NoAmounts { stock: stock.to_owned(), density }.into())
     }
 
     fn xyz_and_slope(&self, amounts: Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {

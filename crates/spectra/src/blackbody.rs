@@ -1,5 +1,5 @@
 use crate::distribution::{SpectralDistribution, quantity::Power};
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::shape::SpectralShape;
 
 /// Second radiation constant hc/k in nm K, from the exact SI constants.
@@ -34,7 +34,7 @@ impl Kelvin {
         if (500.0..=100_000.0).contains(&kelvin) {
             Ok(Self(kelvin))
         } else {
-            Err(Kind::Temperature { found: kelvin }.into())
+            Err(ErrorKind::Temperature { found: kelvin }.into())
         }
     }
 

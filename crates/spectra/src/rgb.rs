@@ -3,7 +3,7 @@ use std::sync::OnceLock;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::blackbody::{Kelvin, black_body};
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::observer::Observer;
 use crate::shape::SpectralShape;
 
@@ -106,7 +106,7 @@ impl RgbSpace {
     /// # Errors
     /// If the primaries do not span a triangle or a number is not finite.
     pub fn to_xyz(&self) -> Result<Matrix3<f64>, Error> {
-        let refuse = |what, c: Chromaticity| Error::from(Kind::Chromaticity { what, x: c.x, y: c.y });
+        let refuse = |what, c: Chromaticity| Error::from(ErrorKind::Chromaticity { what, x: c.x, y: c.y });
         if !(self.white.x.is_finite() && self.white.y.is_finite() && self.white.y > 0.0) {
             return Err(refuse("white of an RGB space", self.white));
         }
@@ -123,7 +123,7 @@ impl RgbSpace {
     /// # Errors
     /// As [`RgbSpace::to_xyz`].
     pub fn from_xyz(&self) -> Result<Matrix3<f64>, Error> {
-        let refuse = || Kind::Chromaticity { what: "RGB space", x: self.white.x, y: self.white.y };
+        let refuse = || ErrorKind::Chromaticity { what: "RGB space", x: self.white.x, y: self.white.y };
         self.to_xyz()?.try_inverse().ok_or_else(|| refuse().into())
     }
 

@@ -1,5 +1,6 @@
+use super::camera_log::CameraLog;
+use super::display::TransferCurve;
 use crate::rgb::RgbSpace;
-use crate::transfer::{CameraLog, TransferCurve};
 
 /// How a scene-linear value becomes the coded value that cameras, grading programs and HDR files carry.
 ///
