@@ -42,7 +42,7 @@ impl LogExposure {
         Self(exposure.max(EXPOSURE_FLOOR).log10())
     }
 
-    /// The exposure itself.
+    /// The exposure itself: 10 to the power of the logarithm.
     #[must_use]
     pub fn exposure(self) -> f64 {
         10f64.powf(self.0)

@@ -54,9 +54,17 @@ pub struct SpectralSensitivity {
 }
 
 /// Where a layer is most sensitive: [`SpectralSensitivity::peak`].
+///
+/// ```
+/// use onelight_film::{SensitivityPeak, SpectralSensitivity};
+/// use onelight_spectra::TablePoints;
+/// let blue = SpectralSensitivity::new(TablePoints { x: vec![400.0, 450.0, 500.0], y: vec![1.1, 1.4, 0.2] })?;
+/// assert_eq!(blue.peak(), SensitivityPeak { wavelength_nm: 450.0, log10: 1.4 });
+/// # Ok::<(), onelight_film::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensitivityPeak {
-    /// The wavelength in nm.
+    /// The wavelength of the highest published value in nm.
     pub wavelength_nm: f64,
     /// The published value there: log10, in the unit of the curve.
     pub log10: f64,

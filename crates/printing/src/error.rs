@@ -4,6 +4,12 @@ use onelight_film::{PerLayer, Stock, StockKind};
 use onelight_spectra::SpectralShape;
 
 /// What went wrong in this crate: one sentence that says what, where, what was found and what was expected.
+///
+/// ```
+/// let error = onelight_printing::EquivalentNeutralDensity::new(f64::NAN).unwrap_err();
+/// assert_eq!(error.to_string(), "equivalent neutral density of a grey card: found NaN, expected 0.05 to 3");
+/// assert!(!error.is_unreachable_aim());
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Error(ErrorKind);
 

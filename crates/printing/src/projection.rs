@@ -8,17 +8,22 @@ use onelight_spectra::{
 use crate::error::{Error, ErrorKind};
 use crate::spectral_row::{SpectralRow, transmitted};
 
-/// The light that a print or a reversal film is seen by.
+/// The light that a print or a reversal film is seen by. docs/talk.md says how far pictures differ by them.
+///
+/// ```
+/// use onelight_printing::Projector;
+/// assert_eq!(Projector::default(), Projector::Display);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Projector {
     /// The 6500 K black body: what a display shows as white.
     #[default]
     Display,
-    /// A theatre's 5500 K; the eye takes the bare lamp for white: dE 0.3 to 0.4 in the mean.
+    /// A theatre's 5500 K; the eye takes the bare lamp for white.
     Theatre,
-    /// A theatre's 5500 K seen next to a 6500 K display: everything looks warm, dE 3.6 in the mean.
+    /// A theatre's 5500 K seen next to a 6500 K display: everything looks warm.
     TheatreUnadapted,
-    /// A theatre's xenon lamp as measured, lines and all; the eye takes the bare lamp for white: dE 0.4 in the mean.
+    /// A theatre's xenon lamp as measured, lines and all; the eye takes the bare lamp for white.
     Xenon,
 }
 
@@ -34,6 +39,25 @@ impl Projector {
 
 /// A film on the screen: steps 6 and 7 of \[Gotanda2010\]. Amounts of dye to spectrum, XYZ (Y of the bare lamp is 1) and
 /// display-linear RGB, which may be negative outside the display's gamut.
+///
+/// ```
+/// use onelight_film::{DyeAmount, PerLayer, SheetText, Stock};
+/// use onelight_printing::{Projection, Projector};
+/// use onelight_spectra::{RgbSpace, SpectralShape};
+/// # fn read(id: &str) -> Result<Stock, Box<dyn std::error::Error>> {
+/// #     let f = onelight_stocks::find(id).ok_or("no such stock")?;
+/// #     Ok(Stock::parse(&SheetText { id: f.id, stock_toml: f.stock_toml, sensitivity_csv: f.sensitivity_csv,
+/// #         characteristic_csv: f.characteristic_csv, dye_density_csv: f.dye_density_csv })?)
+/// # }
+/// let print = read("kodak-2383")?;
+/// let projection = Projection::new(print.dyes_on(SpectralShape::VISIBLE)?, Projector::Display, &RgbSpace::SRGB)?;
+/// // The dyes that look grey at density 0.7, and what the display shows of them.
+/// let grey = projection.neutral_amounts(0.7, print.id())?;
+/// assert!(projection.rgb(grey).iter().all(|v| (v - 10f64.powf(-0.7)).abs() < 1e-9));
+/// let red = projection.rgb(PerLayer { red: DyeAmount(0.0), ..grey });
+/// assert!(red[0] > 3.0 * red[1], "without its cyan it is red: {red:?}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Projection {
     dyes: Dyes,

@@ -1,5 +1,18 @@
 /// What a film and its light do at one wavelength: the light that passes adds `weights * 10^-(base + dyes . amounts)` to three
-/// sums, which are exposures or tristimulus values.
+/// sums, which are exposures or tristimulus values. Tables and other fast forms are made from them.
+///
+/// ```
+/// use onelight_film::{DyeAmount, Dyes, PerLayer};
+/// use onelight_printing::{Projection, Projector, SpectralRow};
+/// use onelight_spectra::{RgbSpace, SpectralDistribution, SpectralShape};
+/// let grey = SpectralDistribution::from_fn(SpectralShape::VISIBLE, |_nm| 0.2)?;
+/// let projection = Projection::new(Dyes::new(PerLayer::all(grey), None)?, Projector::Display, &RgbSpace::SRGB)?;
+/// // Y by hand: dyes of 0.5 units each.
+/// let y = |row: &SpectralRow| row.weights[1] * 10f64.powf(-(row.base + 0.5 * row.dyes.iter().sum::<f64>()));
+/// let y: f64 = projection.rows().iter().map(y).sum();
+/// assert!((y - projection.xyz(PerLayer::all(DyeAmount(0.5)))[1]).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpectralRow {
     /// Density of one unit of each dye: cyan, magenta, yellow.

@@ -4,13 +4,19 @@ use crate::error::{Error, ErrorKind};
 use crate::linear::linear_at;
 use crate::shape::SpectralShape;
 
-/// What the numbers of a [`SpectralDistribution`] mean. Implemented by the markers in [`quantity`].
+/// What the numbers of a [`SpectralDistribution`] mean, and which are allowed. Implemented by the markers in [`quantity`].
+///
+/// ```
+/// use onelight_spectra::{Quantity, quantity::Reflectance};
+/// assert!(Reflectance::allows(0.5) && !Reflectance::allows(1.5));
+/// assert_eq!(Reflectance::ALLOWED, "0 to 1");
+/// ```
 pub trait Quantity: Copy + private::Sealed {
-    /// Name used in messages.
+    /// Name of the quantity in messages, such as `radiant power`.
     const NAME: &'static str;
     /// The values allowed, in words.
     const ALLOWED: &'static str;
-    /// Whether `value` is allowed.
+    /// Whether a distribution of this quantity may hold `value`.
     fn allows(value: f64) -> bool;
 }
 
@@ -21,6 +27,12 @@ mod private {
 macro_rules! quantities {
     ($($(#[$doc:meta])* $name:ident: $text:literal, $allowed:literal, $test:expr;)*) => {
         /// The meanings a [`SpectralDistribution`] can have.
+        ///
+        /// ```
+        /// use onelight_spectra::{SpectralDistribution, SpectralShape, quantity::Reflectance};
+        /// let error = SpectralDistribution::<Reflectance>::from_fn(SpectralShape::VISIBLE, |nm| nm / 779.0).unwrap_err();
+        /// assert!(error.to_string().ends_with("expected 0 to 1"));
+        /// ```
         pub mod quantity {
             $($(#[$doc])* #[derive(Debug, Clone, Copy, PartialEq, Eq)] pub enum $name {})*
         }
@@ -50,6 +62,16 @@ quantities! {
 }
 
 /// What a receiver answers to: light, or a difference of lights.
+///
+/// ```
+/// use onelight_spectra::{Light, SpectralDistribution, SpectralShape, quantity::{Responsivity, SignedPower}};
+/// fn seen<L: Light>(light: &SpectralDistribution<L>) -> Result<f64, onelight_spectra::Error> {
+///     Ok(light.response(&SpectralDistribution::<Responsivity>::from_fn(light.shape(), |_nm| 1.0)?))
+/// }
+/// let difference = SpectralDistribution::<SignedPower>::from_fn(SpectralShape::VISIBLE, |nm| nm - 580.0)?;
+/// assert!(seen(&difference)?.abs() < 1e-9);
+/// # Ok::<(), onelight_spectra::Error>(())
+/// ```
 pub trait Light: Quantity {}
 impl Light for quantity::Power {}
 impl Light for quantity::SignedPower {}
@@ -102,13 +124,13 @@ impl<Q: Quantity> SpectralDistribution<Q> {
         Self { shape, values, quantity: PhantomData }
     }
 
-    /// The wavelength grid.
+    /// The wavelengths that the values belong to.
     #[must_use]
     pub fn shape(&self) -> SpectralShape {
         self.shape
     }
 
-    /// One value per wavelength.
+    /// The values, one for each wavelength of [`SpectralDistribution::shape`], in order.
     #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.values

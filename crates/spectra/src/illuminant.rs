@@ -39,6 +39,12 @@ impl Illuminant {
 
 /// Relative power of a CIE illuminant, 1.0 at 560 nm; 5 nm table, linear between its rows as the CIE prescribes, end
 /// values held beyond 300..780 nm.
+///
+/// ```
+/// use onelight_spectra::{Illuminant, SpectralShape, illuminant};
+/// let daylight = illuminant(Illuminant::D50, SpectralShape::VISIBLE);
+/// assert!((daylight.values()[0] - 0.245).abs() < 0.001, "at 380 nm");
+/// ```
 #[must_use]
 #[expect(clippy::expect_used, reason = "the tables are compiled in and a test reads them all")]
 pub fn illuminant(which: Illuminant, shape: SpectralShape) -> SpectralDistribution<Power> {
@@ -55,6 +61,11 @@ fn read(which: Illuminant, shape: SpectralShape) -> Result<SpectralDistribution<
 
 /// Relative power of a cinema's xenon projector, 1.0 at 560 nm: a Kinoton 75P as measured, about 6340 K; 2 nm table, linear
 /// between its rows, end values held beyond 380..780 nm.
+///
+/// ```
+/// use onelight_spectra::{SpectralShape, xenon_lamp};
+/// assert_eq!(xenon_lamp(SpectralShape::VISIBLE).at(560.0), Some(1.0));
+/// ```
 #[must_use]
 #[expect(clippy::expect_used, reason = "the table is compiled in and a test reads it")]
 pub fn xenon_lamp(shape: SpectralShape) -> SpectralDistribution<Power> {

@@ -9,7 +9,11 @@ use crate::shape::SpectralShape;
 /// Lumens in a watt at 555 nm: the SI's luminous efficacy K_cd.
 pub const LUMENS_PER_WATT_555_NM: f64 = 683.0;
 
-/// Luminous efficacy of the 6500 K black body between 380 and 780 nm in lm/W: 195.6.
+/// Luminous efficacy of the 6500 K black body between 380 and 780 nm in lm/W.
+///
+/// ```
+/// assert!((onelight_spectra::white_lumens_per_watt() - 195.6).abs() < 0.05);
+/// ```
 #[must_use]
 pub fn white_lumens_per_watt() -> f64 {
     static EFFICACY: OnceLock<f64> = OnceLock::new();
@@ -31,6 +35,10 @@ pub fn lux_to_w_per_m2(lux: f64) -> f64 {
 }
 
 /// Luminous flux in lumen to radiant flux in W of 6500 K light between 380 and 780 nm.
+///
+/// ```
+/// assert!((onelight_spectra::lumen_to_w(800.0) - 4.09).abs() < 0.005);
+/// ```
 #[must_use]
 pub fn lumen_to_w(lumen: f64) -> f64 {
     lux_to_w_per_m2(lumen)

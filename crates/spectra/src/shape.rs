@@ -37,13 +37,13 @@ impl SpectralShape {
         Self { first_nm: FIRST_NM, last_nm: LAST_NM, step_nm: 1 }
     }
 
-    /// First wavelength in nm.
+    /// The shortest wavelength of the grid in nm.
     #[must_use]
     pub const fn first_nm(self) -> f64 {
         self.first_nm as f64
     }
 
-    /// Last wavelength in nm.
+    /// The longest wavelength of the grid in nm.
     #[must_use]
     pub const fn last_nm(self) -> f64 {
         self.last_nm as f64

@@ -57,13 +57,13 @@ impl CharacteristicCurve {
         LogExposure(first)..=LogExposure(last)
     }
 
-    /// The lowest published density.
+    /// The lowest published density: that of the film without image.
     #[must_use]
     pub fn d_min(&self) -> Density {
         Density(self.curve.y().iter().copied().fold(f64::INFINITY, f64::min))
     }
 
-    /// The highest published density.
+    /// The highest published density; a film may reach more beyond the sheet.
     #[must_use]
     pub fn d_max(&self) -> Density {
         Density(self.curve.y().iter().copied().fold(f64::NEG_INFINITY, f64::max))

@@ -23,6 +23,19 @@ const ID_CHARACTERS: usize = 64;
 
 /// The text of a film's four files, as they stand in a folder of `onelight-stocks`. A film of one's own needs nothing else; the
 /// example at [`Stock`] has all of one.
+///
+/// ```
+/// use onelight_film::{SheetText, Stock};
+/// let error = Stock::parse(&SheetText {
+///     id: "mine",
+///     stock_toml: "version = 1\nname = 'My film'\nspeed = 100\n",
+///     sensitivity_csv: "",
+///     characteristic_csv: "",
+///     dye_density_csv: "",
+/// })
+/// .unwrap_err();
+/// assert!(error.to_string().starts_with("mine/stock.toml:3: unknown field `speed`"), "{error}");
+/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct SheetText<'a> {
     /// Name of the folder, expected to be the `id` in `stock.toml`; messages begin with it.

@@ -33,7 +33,7 @@ pub enum SceneCurve {
 }
 
 impl SceneCurve {
-    /// All of them.
+    /// The six curves: those of cameras and grading programs first.
     pub const ALL: [Self; 6] =
         [Self::AcesCct, Self::LogC4, Self::SLog3, Self::DaVinciIntermediate, Self::Pq, Self::Srgb];
 
