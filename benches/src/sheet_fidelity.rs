@@ -2,7 +2,7 @@
 
 use onelight::film::{Density, LogExposure, PerLayer};
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
-use onelight::spectra::{Basis, DisplayDifference, Reconstruction, RgbSpace, SpectralShape, color_checker};
+use onelight::spectra::{Basis, DisplayDifference, MID_GREY, Reconstruction, RgbSpace, SpectralShape, color_checker};
 use onelight::{Aim, Process, Reference, Stock, StockKind, stock, stock_ids};
 use serde::Serialize;
 
@@ -99,8 +99,8 @@ fn d_min(film: &Stock) -> Result<Option<f64>> {
 fn neutral(film: &Stock) -> Result<Option<f64>> {
     let Some(neutral) = film.neutral() else { return Ok(None) };
     // Where the neutral and the beginning of every dye are published; dyes end where they hardly count.
-    let starts = film.dyes().map(|dye| dye.range_nm().0).to_array().into_iter().fold(400.0, f64::max);
-    let (from, to) = (starts.max(neutral.range_nm().0), neutral.range_nm().1.min(700.0));
+    let starts = film.dyes().map(|dye| *dye.range_nm().start()).to_array().into_iter().fold(400.0, f64::max);
+    let (from, to) = (starts.max(*neutral.range_nm().start()), neutral.range_nm().end().min(700.0));
     let shape = SpectralShape::new(from.ceil() as u16, to as u16, 1)?;
     let base = film.d_min().filter(|_| film.kind() == StockKind::Negative);
     let [c, m, y] = film.dyes().map(|dye| dye.on(shape)).try_map(|dye, _| dye)?.to_array();
@@ -118,7 +118,7 @@ fn neutral(film: &Stock) -> Result<Option<f64>> {
 
 /// Slope of log10 luminance over log10 exposure at mid grey.
 fn gamma(reference: &Reference) -> f64 {
-    let luminance = |stops: f64| reference.stages([0.18 * stops.exp2(); 3]).xyz[1].log10();
+    let luminance = |stops: f64| reference.stages([MID_GREY * stops.exp2(); 3]).xyz[1].log10();
     // Over a third of a stop either side.
     let step = 1.0 / 3.0;
     (luminance(step) - luminance(-step)) / (2.0 * step * std::f64::consts::LOG10_2)
@@ -127,7 +127,7 @@ fn gamma(reference: &Reference) -> f64 {
 fn tint(reference: &Reference) -> Result<(f64, f64)> {
     let difference = reference.difference()?;
     let chroma = |stops: f64| {
-        let [_, a, b] = difference.lab(reference.develop_linear([0.18 * stops.exp2(); 3]));
+        let [_, a, b] = difference.lab(reference.develop_linear([MID_GREY * stops.exp2(); 3]));
         a.hypot(b)
     };
     let greys = (-12..=12).map(|i| f64::from(i) / 4.0).map(|stops| (chroma(stops), stops));
@@ -138,11 +138,11 @@ fn tint(reference: &Reference) -> Result<(f64, f64)> {
 fn chart(reference: &Reference) -> Result<(f64, (f64, f64, String))> {
     let (basis, difference) = (Basis::new(Reconstruction::Smooth)?, DisplayDifference::new(&RgbSpace::SRGB)?);
     // The scene as a display of the same mid grey would show it.
-    let level = 10f64.powf(-0.7) / 0.18;
+    let level = 10f64.powf(-0.7) / MID_GREY;
     let (mut chroma, mut hues) = (0.0, Vec::new());
     let colours = color_checker().iter().take(18);
     for patch in colours {
-        let rgb = basis.rgb_of(&basis.white().reflected_by(&patch.reflectance)).data.0[0].map(|v| v.max(0.0));
+        let rgb = basis.rgb_of(&basis.white().reflected_by(&patch.reflectance)).map(|v| v.max(0.0));
         let polar = |linear| {
             let [_, a, b] = difference.lab(linear);
             (a.hypot(b), b.atan2(a).to_degrees())

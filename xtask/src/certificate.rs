@@ -65,7 +65,8 @@ impl<'a> Measure<'a> {
     /// The film's own tint: chroma C* of 18 % grey, and the largest of all greys with its exposure in stops about it.
     pub(crate) fn tint(&self) -> (f64, f64, f64) {
         let chroma = |stops: f64| {
-            let [_, a, b] = self.difference.lab(self.film.develop_linear([0.18 * stops.exp2(); 3]));
+            let [_, a, b] =
+                self.difference.lab(self.film.develop_linear([onelight::spectra::MID_GREY * stops.exp2(); 3]));
             a.hypot(b)
         };
         let greys = (-80..=80).map(|i| f64::from(i) / 8.0).map(|stops| (chroma(stops), stops));
@@ -80,7 +81,7 @@ impl<'a> Measure<'a> {
 }
 
 fn multiply(matrix: &Matrix3<f64>, rgb: [f64; 3]) -> [f64; 3] {
-    (matrix * Vector3::from(rgb)).data.0[0]
+    (matrix * Vector3::from(rgb)).into()
 }
 
 /// The ColorChecker under the white of the scene, in the primaries of `space`.
@@ -91,7 +92,7 @@ fn checker(space: WorkingSpace) -> Result<ColourSet> {
     let patches = color_checker().iter().map(|patch| {
         let rgb = basis.rgb_of(&basis.white().reflected_by(&patch.reflectance));
         // One patch, cyan, lies a little outside sRGB.
-        (patch.name.as_str(), multiply(&from_srgb, rgb.data.0[0]).map(|v| v.max(0.0)))
+        (patch.name.as_str(), multiply(&from_srgb, rgb).map(|v| v.max(0.0)))
     });
     Ok(ColourSet::new("ColorChecker", patches)?)
 }

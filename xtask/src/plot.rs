@@ -59,7 +59,7 @@ const WAVELENGTH: &str = "wavelength (nm)";
 
 fn sensitivity(stock: &Stock) -> Panel {
     let curves = stock.sensitivity().to_array().into_iter().zip(LAYERS).map(|(layer, (colour, name))| {
-        let (first, last) = layer.range_nm();
+        let (first, last) = layer.range_nm().into_inner();
         (sampled(first..last, |nm| layer.log10_at(nm, Tail::LogLinear)), colour, name)
     });
     // Without the density it is stated at, a sensitivity has no unit.
@@ -72,7 +72,7 @@ fn sensitivity(stock: &Stock) -> Panel {
 
 fn characteristic(stock: &Stock) -> Panel {
     let curves = stock.characteristic().to_array().into_iter().zip(LAYERS).map(|(curve, (colour, name))| {
-        let (first, last) = curve.range();
+        let (first, last) = curve.range().into_inner();
         (sampled(first.0..last.0, |h| curve.density(LogExposure(h)).0), colour, name)
     });
     let x = match stock.axis() {
@@ -94,7 +94,7 @@ fn dyes(stock: &Stock) -> Panel {
     let others = [(stock.d_min(), GREY, "D-min"), (stock.neutral(), BLACK, "neutral")];
     let others = others.into_iter().filter_map(|(curve, colour, name)| Some((curve?, colour, name)));
     let curves = dyes.chain(others).map(|(dye, colour, name)| {
-        let (first, last) = dye.range_nm();
+        let (first, last) = dye.range_nm().into_inner();
         (sampled(first..last, |nm| dye.at(nm)), colour, name)
     });
     Panel { title: "spectral density of the dyes", x: WAVELENGTH, y: "density", curves: curves.collect(), mark: None }

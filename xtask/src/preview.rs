@@ -54,5 +54,5 @@ fn srgb_coded(linear: f32) -> f32 {
 }
 
 fn multiply(matrix: &Matrix3<f64>, rgb: [f32; 3]) -> [f32; 3] {
-    (matrix * Vector3::from(rgb.map(f64::from))).data.0[0].map(|v| v as f32)
+    <[f64; 3]>::from(matrix * Vector3::from(rgb.map(f64::from))).map(|v| v as f32)
 }

@@ -59,7 +59,7 @@ fn some_of(picture: &mut PictureReader, to_input: Option<Matrix3<f64>>, count: u
         let finite = band.rgb.iter().skip(first).step_by(every).filter(|rgb| rgb.iter().all(|v| v.is_finite()));
         colours.extend(finite.map(|rgb| {
             let rgb = rgb.map(f64::from);
-            to_input.map_or(rgb, |matrix| (matrix * Vector3::from(rgb)).data.0[0])
+            to_input.map_or(rgb, |matrix| (matrix * Vector3::from(rgb)).into())
         }));
     }
 }

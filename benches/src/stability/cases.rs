@@ -48,7 +48,7 @@ impl Case {
 }
 
 /// Scene value of mid grey.
-pub(super) const GREY: f64 = 0.18;
+pub(super) const GREY: f64 = onelight::spectra::MID_GREY;
 
 /// Greys so many stops about mid grey.
 pub(super) fn stops(about: f64) -> f64 {
@@ -144,7 +144,7 @@ fn spectral_locus(space: WorkingSpace) -> Result<Case> {
     for nm in (400..=700).step_by(10) {
         let at = |curve: &onelight::spectra::SpectralDistribution<_>| curve.at(f64::from(nm)).unwrap_or(0.0);
         let rgb = from_xyz * onelight::spectra::nalgebra::Vector3::new(at(x), at(y), at(z));
-        let rgb = (rgb / rgb.max()).data.0[0];
+        let rgb = <[f64; 3]>::from(rgb / rgb.max());
         colours.extend((-10..=14).map(|s| scaled(rgb, stops(f64::from(s)))));
     }
     Ok(Case::new("spectral locus").with(Order::Loose, colours))

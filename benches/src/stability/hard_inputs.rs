@@ -61,7 +61,7 @@ fn row_sums(film: &Reference) -> [f64; 3] {
 
 /// The log exposure where a curve changes fastest.
 fn steepest_of(curve: &AmountCurve) -> f64 {
-    let (first, last) = curve.range();
+    let (first, last) = curve.range().into_inner();
     let at = |i: u32| first.0 + f64::from(i) / f64::from(CURVE_STEPS) * (last.0 - first.0);
     let rise = |i: &u32| (curve.amount(LogExposure(at(i + 1))).0 - curve.amount(LogExposure(at(*i))).0).abs();
     let steep = (0..CURVE_STEPS).max_by(|a, b| rise(a).total_cmp(&rise(b))).unwrap_or(0);

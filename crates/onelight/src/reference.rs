@@ -129,7 +129,7 @@ impl Reference {
 
     /// The same to tristimulus values; Y of the bare lamp is 1, all three are above 0.
     pub(crate) fn xyz_of_amounts(&self, amounts: PerLayer<DyeAmount>) -> [f64; 3] {
-        self.projection.xyz(self.shown(amounts)).data.0[0]
+        self.projection.xyz(self.shown(amounts))
     }
 
     /// Dye in the film on the screen, for dye in the camera film.
@@ -158,14 +158,14 @@ impl Reference {
         });
         let shown = print.map_or(amounts, |(_, amounts)| amounts);
         let xyz = self.projection.xyz(shown);
-        let linear = self.projection.rgb_of(&xyz);
+        let linear = self.projection.rgb_of(xyz);
         Stages {
             scene,
             exposure,
             amounts,
             print,
             spectrum: self.projection.spectrum(shown),
-            xyz: xyz.data.0[0],
+            xyz,
             linear,
             coded: linear.map(|v| self.coding.encode(v)),
         }

@@ -1,11 +1,9 @@
 use nalgebra::{Matrix3, Vector3};
-use onelight_spectra::{Chromaticity, RgbSpace};
+pub use onelight_spectra::SCENE_MAX;
+use onelight_spectra::{Chromaticity, RgbSpace, finite};
 
 use crate::error::Error;
 use crate::process::Process;
-
-/// The brightest scene value: more would overflow float32 in the exposure matrix.
-pub const SCENE_MAX: f64 = 1e30;
 
 /// Scene light on its way to a film: from the input's primaries to sRGB's, hard values cleaned.
 #[derive(Debug, Clone)]
@@ -21,8 +19,7 @@ impl SceneInput {
 
     /// sRGB primaries, 0 to [`SCENE_MAX`]: NaN counts as 0.
     pub(crate) fn clean(&self, rgb: [f64; 3]) -> [f64; 3] {
-        let finite = rgb.map(|v| if v.is_nan() { 0.0 } else { v.clamp(-SCENE_MAX, SCENE_MAX) });
-        (self.to_srgb * Vector3::from(finite)).data.0[0].map(|v| v.clamp(0.0, SCENE_MAX))
+        <[f64; 3]>::from(self.to_srgb * Vector3::from(rgb.map(finite))).map(|v| v.clamp(0.0, SCENE_MAX))
     }
 
     pub(crate) fn to_srgb(&self) -> &Matrix3<f64> {

@@ -46,7 +46,7 @@ fn grey_has_the_published_densities_in_sheet_aim() {
         let print = stock(process.print.as_deref().unwrap()).unwrap();
         let (_, amounts) = film.stages([0.18; 3]).print.unwrap();
         let grey = print.dyes_on(SpectralShape::VISIBLE).unwrap().density(amounts).transmittance();
-        let (aim, _) = print.aim().unwrap();
+        let aim = print.aim().unwrap().status_a;
         for (read, aim) in print.densitometry().density(&grey).to_array().into_iter().zip(aim.to_array()) {
             assert!((read.0 - aim.0).abs() < 2e-3, "{}: {read:?} for {aim:?}", process.name());
         }

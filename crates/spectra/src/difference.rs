@@ -48,7 +48,12 @@ impl DisplayDifference {
     }
 }
 
-/// CIEDE2000 between two CIELAB colours under one white, all weights 1 (\[CIE142\], \[Sharma2005\]).
+/// CIEDE2000 between two CIELAB colours under one white, all weights 1 (\[CIE142\], \[Sharma2005\]). 1 is about what an eye just sees side by side.
+///
+/// ```
+/// let difference = onelight_spectra::ciede2000([50.0, 2.5, 0.0], [73.0, 25.0, -18.0]);
+/// assert!((difference - 27.1492).abs() < 5e-5, "a pair of [Sharma2005]: {difference}");
+/// ```
 #[must_use]
 pub fn ciede2000(a: [f64; 3], b: [f64; 3]) -> f64 {
     let lab = |[l, a, b]: [f64; 3]| Lab::<D65, f64>::new(l, a, b);

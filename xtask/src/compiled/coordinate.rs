@@ -3,7 +3,7 @@
 use anyhow::Result;
 use onelight::lut::Lut3d;
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
-use onelight::spectra::{Chromaticity, RgbSpace, SceneCurve};
+use onelight::spectra::{Chromaticity, MID_GREY, RgbSpace, SceneCurve};
 use onelight::{Look, Process};
 
 /// What the coordinates of a table stand for.
@@ -23,7 +23,6 @@ enum Curve {
     Stops(f64, f64),
 }
 
-const MID_GREY: f64 = 0.18;
 /// The range of Bevy's tone-mapping tables, in stops about mid grey.
 const BEVY_STOPS: (f64, f64) = (-11.0, 12.0);
 
@@ -54,12 +53,12 @@ impl Coordinate {
             Curve::Scene(curve) => curve.decode(v),
             Curve::Stops(low, high) => MID_GREY * (low + v * (high - low)).exp2(),
         });
-        (self.back * Vector3::from(linear)).data.0[0]
+        (self.back * Vector3::from(linear)).into()
     }
 
     /// Coordinates of scene-linear RGB of the look's input space; not clamped, finite for finite light.
     pub(crate) fn encode(&self, linear: [f64; 3]) -> [f64; 3] {
-        (self.there * Vector3::from(linear)).data.0[0].map(|v| match self.curve {
+        <[f64; 3]>::from(self.there * Vector3::from(linear)).map(|v| match self.curve {
             Curve::Scene(curve) => curve.encode(v),
             Curve::Stops(low, high) => ((v.max(1e-12) / MID_GREY).log2() - low) / (high - low),
         })

@@ -108,8 +108,7 @@ impl Recipe {
 
 /// NaN and infinities as the film takes them.
 fn finite(v: f32) -> f64 {
-    let limit = onelight::SCENE_MAX;
-    if v.is_nan() { 0.0 } else { f64::from(v).clamp(-limit, limit) }
+    onelight::spectra::finite(f64::from(v))
 }
 
 /// Pixels of one task.

@@ -37,7 +37,7 @@ pub(super) fn curves(prepared: &Prepared, colours: &Colours) -> Result<Vec<Curve
 
 /// Dye over log2 exposure, each layer over its own range.
 fn table(layers: PerLayer<&AmountCurve>, points: usize) -> Result<Lut1d> {
-    let ranges = layers.map(|curve| (curve.range().0.0, curve.range().1.0)).to_array();
+    let ranges = layers.map(|curve| (curve.range().start().0, curve.range().end().0)).to_array();
     let domain = Domain::new(ranges.map(|r| (r.0 * LOG2_10) as f32), ranges.map(|r| (r.1 * LOG2_10) as f32))?;
     let layers = layers.to_array();
     let entry = |i: usize| {

@@ -85,7 +85,7 @@ pub(super) fn exposure(prepared: &Prepared, colours: &Colours) -> Result<Vec<Exp
         let response = sensors * Vector3::repeat(1.0);
         let miss = |matching: Vector3<f64>| {
             let matrix = Matrix3::from_diagonal(&matching) * sensors;
-            let coarse = |rgb: [f64; 3]| PerLayer::from((matrix * Vector3::from(rgb)).data.0[0]);
+            let coarse = |rgb: [f64; 3]| PerLayer::from(<[f64; 3]>::from(matrix * Vector3::from(rgb)));
             colours
                 .miss_between(|rgb| film.develop_exposure(exact.expose(rgb)), |rgb| film.develop_exposure(coarse(rgb)))
         };

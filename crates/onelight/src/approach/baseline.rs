@@ -1,5 +1,5 @@
 use nalgebra::{Matrix3, Vector3};
-use onelight_spectra::{Chromaticity, DisplayDifference, RgbSpace, TransferCurve};
+use onelight_spectra::{Chromaticity, DisplayDifference, RgbSpace, TransferCurve, finite};
 
 use super::Approach;
 use crate::error::Error;
@@ -34,8 +34,7 @@ impl Baseline {
     /// NaN counts as 0, each channel is held to ±[`SCENE_MAX`], and what is negative in the output's primaries counts as 0.
     #[must_use]
     pub fn develop_linear(&self, rgb: [f64; 3]) -> [f64; 3] {
-        let finite = rgb.map(|v| if v.is_nan() { 0.0 } else { v.clamp(-SCENE_MAX, SCENE_MAX) });
-        let light = (self.to_output * Vector3::from(finite)).map(|v| v.clamp(0.0, SCENE_MAX));
+        let light = (self.to_output * Vector3::from(rgb.map(finite))).map(|v| v.clamp(0.0, SCENE_MAX));
         match self.approach {
             Approach::Reinhard => light.map(reinhard),
             Approach::ReinhardLuminance => light / (1.0 + self.luminance.dot(&light)),

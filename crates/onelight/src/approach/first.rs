@@ -1,6 +1,6 @@
 use nalgebra::{Matrix3, Vector3};
 use onelight_film::{EXPOSURE_FLOOR, LAYER_NAMES, PerLayer, Stock, Tail};
-use onelight_spectra::{Chromaticity, DisplayDifference, RgbSpace, TransferCurve};
+use onelight_spectra::{Chromaticity, DisplayDifference, MID_GREY, RgbSpace, TransferCurve};
 
 use super::post::PostColour;
 use super::tone_curve::ToneCurve;
@@ -25,8 +25,6 @@ pub struct FirstApproach {
 
 /// What red, green and blue light are taken for, in nm.
 const WAVELENGTHS_NM: [f64; 3] = [612.0, 549.0, 464.0];
-/// Scene value of mid grey.
-const MID_GREY: f64 = 0.18;
 
 impl FirstApproach {
     pub(crate) fn new(process: &Process) -> Result<Self, Error> {
@@ -57,10 +55,10 @@ impl FirstApproach {
     #[must_use]
     pub fn develop_linear(&self, rgb: [f64; 3]) -> [f64; 3] {
         let exposure = self.matrix * Vector3::from(self.scene.clean(rgb)) / MID_GREY;
-        let exposure = PerLayer::from(exposure.data.0[0]);
+        let exposure = PerLayer::from(<[f64; 3]>::from(exposure));
         let coded = self.curves.as_ref().zip_map(exposure, |curve, e| curve.at(e.max(EXPOSURE_FLOOR).log10()));
         let linear = self.post.apply(coded.to_array()).map(|v| TransferCurve::Srgb.decode(v));
-        (self.to_output * Vector3::from(linear)).data.0[0]
+        (self.to_output * Vector3::from(linear)).into()
     }
 
     /// The pre-colour matrix: sensitivity of layer i at the wavelength of light k, each row summing to 1.

@@ -82,14 +82,14 @@ struct Measure<'a> {
 impl<'a> Measure<'a> {
     fn new(film: &'a Reference) -> Result<Self, Error> {
         let to_input = film.to_srgb().try_inverse().unwrap_or_else(Matrix3::identity);
-        let exact = |rgb| film.develop_linear((to_input * Vector3::from(rgb)).data.0[0]);
+        let exact = |rgb| film.develop_linear((to_input * Vector3::from(rgb)).into());
         let samples = Samples::new(&Law::default(), &[], exact, |_| {})?;
         Ok(Self { film, to_input, samples, luminance: film.output().to_xyz()?.row(1).transpose() })
     }
 
     fn certify(&self, direct: &DirectForm, search: Search) -> Result<Certificate, Error> {
         let difference = self.film.difference()?;
-        let input = |rgb: [f64; 3]| (self.to_input * Vector3::from(rgb)).data.0[0];
+        let input = |rgb: [f64; 3]| <[f64; 3]>::from(self.to_input * Vector3::from(rgb));
         let maps = Maps {
             reference: |rgb| self.film.develop_linear(input(rgb)),
             candidate: |rgb: [f64; 3]| {

@@ -163,5 +163,5 @@ fn derivatives(sum: &Sum, sample: &Sample, weight: f64, rows: &mut [f64]) -> [f6
             }
         }
     }
-    (seen * (sample.target - value)).data.0[0]
+    (seen * (sample.target - value)).into()
 }

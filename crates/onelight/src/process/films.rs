@@ -118,7 +118,7 @@ pub(crate) fn useful(process: &Process) -> Result<(), Error> {
         );
     }
     let separations = [Wratten::No70, Wratten::No99, Wratten::No98];
-    if process.light == PrinterLight::White && !separations.iter().all(|filter| process.filters.hold(*filter)) {
+    if process.light == PrinterLight::White && !separations.iter().all(|filter| process.filters.contains(*filter)) {
         return refuse("light white has no separation filters: taking them out changes nothing, expected filters with 70, 99 and 98 or light separations".to_owned());
     }
     Ok(())

@@ -162,7 +162,7 @@ impl Encode<'_> {
         let to_rgb = self.film.rgb_from_entries();
         let linear = |entry: [f32; 3]| match self.coding {
             TableCoding::Display => entry.map(|v| self.film.coding().decode(f64::from(v))),
-            TableCoding::Density => (to_rgb * Vector3::from(entry.map(|d| 10f64.powf(-f64::from(d))))).data.0[0],
+            TableCoding::Density => (to_rgb * Vector3::from(entry.map(|d| 10f64.powf(-f64::from(d))))).into(),
         };
         let miss = |i: usize, value: [f32; 3]| difference.between(linear(samples[i].target), linear(value));
         Ok(fit(table, how, &samples, miss, FitSettings::default())?)

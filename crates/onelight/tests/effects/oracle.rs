@@ -121,7 +121,7 @@ impl Oracle {
                 let target = match self.grey {
                     Grey::Density(d) => solve(dye, self.neutral(print, d)),
                     Grey::Sheet => {
-                        let aim = layers(print.aim().unwrap().0);
+                        let aim = layers(print.aim().unwrap().status_a);
                         std::array::from_fn(|j| layers(print.characteristic())[j].log_exposure(aim[j]).unwrap().0)
                     }
                 };
@@ -173,7 +173,7 @@ impl Oracle {
     }
 
     fn print_sensitivity(&self, layer: usize, curve: &SpectralSensitivity, nm: f64) -> f64 {
-        let at = if layer == 0 && self.held_tail { nm.min(curve.range_nm().1) } else { nm };
+        let at = if layer == 0 && self.held_tail { nm.min(*curve.range_nm().end()) } else { nm };
         10f64.powf(curve.log10_at(at, Tail::LogLinear))
     }
 
@@ -235,7 +235,7 @@ impl Oracle {
         let rows = self.screen_rows(layers(film.dyes()));
         let lamp = xyz(&self.projector);
         let to_rgb = rgb_from_xyz(&if self.adapted { lamp } else { xyz(&planck(6500.0)) }) / lamp.y;
-        move |amounts| (to_rgb * Vector3::from(through(&rows, amounts))).data.0[0]
+        move |amounts| (to_rgb * Vector3::from(through(&rows, amounts))).into()
     }
 
     fn screen_rows(&self, dyes: [&DyeDensity; 3]) -> Vec<([f64; 3], [f64; 3])> {
@@ -252,7 +252,7 @@ impl Oracle {
     fn neutral(&self, film: &Stock, density: f64) -> [f64; 3] {
         let rows = self.screen_rows(layers(film.dyes()));
         let target = xyz(&self.projector) * 10f64.powf(-density);
-        let light = |a: &Vector3<f64>| Vector3::from(through(&rows, a.data.0[0])).component_div(&target).map(f64::ln);
+        let light = |a: &Vector3<f64>| Vector3::from(through(&rows, (*a).into())).component_div(&target).map(f64::ln);
         let mut a = Vector3::repeat(density);
         for _ in 0..50 {
             let slope = Matrix3::from_fn(|i, k| {
@@ -261,7 +261,7 @@ impl Oracle {
             });
             a -= slope.try_inverse().unwrap() * light(&a);
         }
-        a.data.0[0]
+        a.into()
     }
 }
 

@@ -76,7 +76,7 @@ pub(super) fn chart_colours() -> Result<Vec<[f64; 3]>> {
     let basis = Basis::new(Reconstruction::Smooth)?;
     let rgb = |patch: &onelight::spectra::Patch| basis.rgb_of(&basis.white().reflected_by(&patch.reflectance));
     // One patch, cyan, lies a little outside sRGB.
-    Ok(color_checker().iter().map(|patch| rgb(patch).data.0[0].map(|v| v.max(0.0))).collect())
+    Ok(color_checker().iter().map(|patch| rgb(patch).map(|v| v.max(0.0))).collect())
 }
 
 /// A picture of the user's, small and exposed.
@@ -105,12 +105,13 @@ pub(super) fn user(path: &Path, exposure: Exposure) -> Result<Frame> {
             *count += 1.0;
         }
     }
-    let mean = |(sum, count): &(Vector3<f64>, f64)| (to_srgb * sum / count.max(1.0)).data.0[0].map(|v| v.max(0.0));
+    let mean =
+        |(sum, count): &(Vector3<f64>, f64)| <[f64; 3]>::from(to_srgb * sum / count.max(1.0)).map(|v| v.max(0.0));
     let rgb: Vec<[f64; 3]> = sums.iter().map(mean).collect();
     let no_light = || format!("{}: the picture holds no light to expose for", path.display());
     let scale = match exposure {
         Exposure::Stops(stops) => stops.exp2(),
-        Exposure::Auto => 0.18 / log_average(&rgb)?.with_context(no_light)?,
+        Exposure::Auto => onelight::spectra::MID_GREY / log_average(&rgb)?.with_context(no_light)?,
     };
     let rgb: Vec<[f32; 3]> = rgb.into_iter().map(|rgb| rgb.map(|v| (scale * v) as f32)).collect();
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();

@@ -1,9 +1,9 @@
 //! How bright a picture is, and how much light it is given.
 
+use onelight::spectra::MID_GREY;
+
 /// A picture whose log average lies further from mid grey, in stops, is worth a word.
 const FAR_STOPS: f64 = 4.0;
-/// What the log average of a picture should be.
-const MID_GREY: f64 = 0.18;
 
 /// How a picture is exposed before it meets the film.
 #[derive(Debug, Clone, Copy, PartialEq)]

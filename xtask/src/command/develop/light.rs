@@ -72,8 +72,9 @@ impl Light {
             None => self.each_row(band, meter, |rgb| *rgb = rgb.map(|v| (f64::from(v) * scale) as f32)),
             Some(matrix) => {
                 let matrix = matrix * scale;
-                let convert =
-                    |rgb: &mut [f32; 3]| *rgb = (matrix * Vector3::from(finite(*rgb))).data.0[0].map(|v| v as f32);
+                let convert = |rgb: &mut [f32; 3]| {
+                    *rgb = <[f64; 3]>::from(matrix * Vector3::from(finite(*rgb))).map(|v| v as f32)
+                };
                 self.each_row(band, meter, convert);
             }
         }
@@ -130,6 +131,5 @@ fn coding_of(picture: &Description, named: Option<TransferCurve>, notes: &mut Ve
 
 /// What a channel counts as before it is mixed with others.
 fn finite(rgb: [f32; 3]) -> [f64; 3] {
-    let limit = onelight::SCENE_MAX;
-    rgb.map(|v| if v.is_nan() { 0.0 } else { f64::from(v).clamp(-limit, limit) })
+    rgb.map(|v| onelight::spectra::finite(f64::from(v)))
 }

@@ -1,8 +1,9 @@
 use onelight_spectra::{SpectralDistribution, SpectralShape};
 
-use crate::curve::{AmountCurve, CharacteristicCurve, LogExposure};
+use crate::curve::{AmountCurve, CharacteristicCurve};
 use crate::error::Error;
 use crate::layer::PerLayer;
+use crate::quantity::LogExposure;
 use crate::stock::{Stock, StockKind};
 
 /// The range over which the neutral is fitted, in nm.
@@ -13,7 +14,7 @@ const NEUTRAL_TO_NM: f64 = 700.0;
 pub(super) fn amounts(stock: &Stock, mid_grey: PerLayer<LogExposure>) -> Result<PerLayer<AmountCurve>, Error> {
     let direction = stock.kind().direction();
     let scaled = |curve: &CharacteristicCurve, h: LogExposure| -> Result<AmountCurve, Error> {
-        let (log_exposure, density) = curve.nodes();
+        let (log_exposure, density) = (curve.log_exposures(), curve.densities());
         let amount: Vec<f64> = match stock.kind() {
             StockKind::Reversal | StockKind::Print => density.to_vec(),
             StockKind::Negative => {

@@ -16,7 +16,7 @@ const NEUTRAL_NM: std::ops::RangeInclusive<f64> = 400.0..=700.0;
 pub(super) fn amounts(stock: &Stock) -> Result<PerLayer<AmountCurve>, Error> {
     let Midscale { constants, density, clear } = Midscale::of(stock)?;
     let scaled = |curve: &CharacteristicCurve, c: f64, above: f64| -> Result<AmountCurve, Error> {
-        let (log_exposure, d) = curve.nodes();
+        let (log_exposure, d) = (curve.log_exposures(), curve.densities());
         let low = curve.d_min().0;
         if above <= 0.0 {
             return Err(Error::stock(stock.id(), "its midscale neutral is no denser than its D-min"));
@@ -54,7 +54,7 @@ impl Midscale {
         let solved =
             square.lu().solve(&product).ok_or_else(|| Error::stock(stock.id(), "its dyes are not independent"))?;
         let read = |film: &SpectralDistribution<_>| stock.densitometry().density(&film.transmittance()).map(|d| d.0);
-        Ok(Self { constants: PerLayer::from(solved.data.0[0]), density: read(&neutral), clear: read(d_min) })
+        Ok(Self { constants: PerLayer::from(<[f64; 3]>::from(solved)), density: read(&neutral), clear: read(d_min) })
     }
 }
 

@@ -1,6 +1,9 @@
 use csv::{ReaderBuilder, StringRecord, Trim};
 
-use crate::error::{Error, Kind};
+use onelight_spectra::TablePoints;
+
+use crate::error::{Error, ErrorKind};
+use crate::printable::printable;
 
 /// Most rows a table may have: ten times the largest spectral table in use.
 pub const MAX_ROWS: usize = 10_000;
@@ -16,16 +19,17 @@ const SHOWN: usize = 40;
 /// means "not published".
 ///
 /// ```
-/// use onelight_spectra::NumberTable;
+/// use onelight_film::NumberTable;
 /// let table = NumberTable::parse("lamp.csv", "# a lamp\nwavelength_nm,power\n400,0.5\n405,\n")?;
 /// assert_eq!(table.column("power")?, [Some(0.5), None]);
-/// # Ok::<(), onelight_spectra::Error>(())
+/// # Ok::<(), onelight_film::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct NumberTable {
     source: String,
     names: Vec<String>,
     columns: Vec<Vec<Option<f64>>>,
+    /// The line of the text that each row stands on, counted from 1.
     lines: Vec<u64>,
 }
 
@@ -73,7 +77,11 @@ impl NumberTable {
                         return Err(at(
                             &self.source,
                             line,
-                            format!("{}: found {:?}, expected a number or nothing", shown(name), shown(cell)),
+                            format!(
+                                "{}: found {:?}, expected a number or nothing",
+                                printable(name, SHOWN),
+                                printable(cell, SHOWN)
+                            ),
                         ));
                     }
                 },
@@ -83,13 +91,13 @@ impl NumberTable {
         Ok(())
     }
 
-    /// The name that messages carry.
+    /// The name of the file that messages carry.
     #[must_use]
     pub fn source(&self) -> &str {
         &self.source
     }
 
-    /// The column names in order.
+    /// The names of the columns from left to right.
     #[must_use]
     pub fn names(&self) -> &[String] {
         &self.names
@@ -103,64 +111,46 @@ impl NumberTable {
         match self.names.iter().position(|n| n == name) {
             Some(i) => Ok(&self.columns[i]),
             None => {
-                let found: Vec<String> = self.names.iter().map(|name| shown(name)).collect();
-                let found: String = found.join(", ").chars().take(8 * SHOWN).collect();
+                let found: Vec<String> = self.names.iter().map(|name| printable(name, SHOWN)).collect();
+                let found = printable(&found.join(", "), 8 * SHOWN);
                 Err(at(&self.source, 1, format!("no column {name:?}, found {found}")))
             }
         }
     }
 
-    /// The rows at which both `x` and `y` are given, checked to increase in x, as two lists and the line of each row.
+    /// The rows at which both `x` and `y` are given, checked to increase in `x`.
     ///
     /// # Errors
-    /// If a column is missing, x does not increase, or fewer than two rows hold both.
-    pub fn nodes(&self, x: &str, y: &str) -> Result<Nodes, Error> {
-        let mut nodes = Nodes { x: Vec::new(), y: Vec::new(), lines: Vec::new() };
+    /// If a column is missing, `x` is blank somewhere or does not increase, or fewer than two rows hold both.
+    pub fn points(&self, x: &str, y: &str) -> Result<TablePoints, Error> {
+        let mut points = TablePoints { x: Vec::new(), y: Vec::new() };
         for ((cell_x, cell_y), &line) in self.column(x)?.iter().zip(self.column(y)?).zip(&self.lines) {
             let Some(value_x) = *cell_x else {
                 return Err(self.problem(line, format!("{x} is blank, expected a number in every row")));
             };
             let Some(value_y) = *cell_y else { continue };
-            if let Some(&last) = nodes.x.last()
+            if let Some(&last) = points.x.last()
                 && value_x <= last
             {
                 return Err(self.problem(line, format!("{x} must increase: {value_x} after {last}")));
             }
-            nodes.x.push(value_x);
-            nodes.y.push(value_y);
-            nodes.lines.push(line);
+            points.x.push(value_x);
+            points.y.push(value_y);
         }
-        if nodes.x.len() < 2 {
-            return Err(self.problem(self.lines[0], format!("{y}: {} values, expected at least 2", nodes.x.len())));
+        if points.x.len() < 2 {
+            return Err(self.problem(self.lines[0], format!("{y}: {} values, expected at least 2", points.x.len())));
         }
-        Ok(nodes)
+        Ok(points)
     }
 
     /// An error at a line of this table.
-    #[must_use]
-    pub fn problem(&self, line: u64, problem: String) -> Error {
+    pub(crate) fn problem(&self, line: u64, problem: String) -> Error {
         at(&self.source, line, problem)
     }
 }
 
-/// Rows of a [`NumberTable`] at which two columns are given.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Nodes {
-    /// Abscissae, increasing.
-    pub x: Vec<f64>,
-    /// Ordinates.
-    pub y: Vec<f64>,
-    /// Line of the text each row stands on, counted from 1.
-    pub lines: Vec<u64>,
-}
-
 fn at(source: &str, line: u64, problem: String) -> Error {
-    Kind::Table { source: source.to_owned(), line, problem }.into()
-}
-
-/// The beginning of what a file has, on one line.
-fn shown(text: &str) -> String {
-    text.chars().take(SHOWN).map(|c| if c.is_control() { ' ' } else { c }).collect()
+    ErrorKind::Sheet { file: source.to_owned(), line, problem }.into()
 }
 
 fn unreadable(source: &str, error: &csv::Error) -> Error {
@@ -180,7 +170,7 @@ mod tests {
     use super::*;
 
     fn message(text: &str) -> String {
-        NumberTable::parse("t.csv", text).and_then(|t| t.nodes("x", "y")).unwrap_err().to_string()
+        NumberTable::parse("t.csv", text).and_then(|t| t.points("x", "y")).unwrap_err().to_string()
     }
 
     #[test]
@@ -211,7 +201,7 @@ mod tests {
     #[test]
     fn blanks_are_skipped_per_column() {
         let table = NumberTable::parse("t.csv", "x,y,z\n1,,5\n2,3,\n4,5,6\n").unwrap();
-        assert_eq!(table.nodes("x", "y").unwrap().x, [2.0, 4.0]);
-        assert_eq!(table.nodes("x", "z").unwrap().lines, [2, 4]);
+        assert_eq!(table.points("x", "y").unwrap().x, [2.0, 4.0]);
+        assert_eq!(table.points("x", "z").unwrap().x, [1.0, 4.0]);
     }
 }

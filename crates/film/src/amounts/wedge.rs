@@ -3,11 +3,12 @@ use std::f64::consts::LN_10;
 use nalgebra::{Matrix3, Vector3};
 use onelight_spectra::{SpectralDistribution, SpectralShape};
 
-use super::Dyes;
-use crate::curve::{AmountCurve, LogExposure};
+use crate::curve::AmountCurve;
 use crate::densitometry::Densitometry;
-use crate::error::{Error, Kind};
+use crate::dye::Dyes;
+use crate::error::{Error, ErrorKind};
 use crate::layer::PerLayer;
+use crate::quantity::LogExposure;
 use crate::stock::{Stock, StockKind};
 
 /// Offsets along the wedge are at most this far apart, in log10 exposure.
@@ -40,7 +41,7 @@ pub(super) fn amounts(stock: &Stock, mid_grey: PerLayer<LogExposure>) -> Result<
         // The curves go on as they went: a step less for Newton's method.
         let straight_on = before.map_or(amount, |before: Vector3<f64>| 2.0 * amount - before);
         let unmixed = reader.unmix(target, straight_on).or_else(|| reader.unmix(target, amount));
-        let unmixed = unmixed.ok_or_else(|| Kind::Unmixing { stock: stock.id().to_owned(), offset })?;
+        let unmixed = unmixed.ok_or_else(|| ErrorKind::Unmixing { stock: stock.id().to_owned(), offset })?;
         before = (offset > from).then_some(amount);
         amount = unmixed;
         for (curve, a) in found.iter_mut().zip(amount.iter()) {
@@ -55,7 +56,7 @@ pub(super) fn amounts(stock: &Stock, mid_grey: PerLayer<LogExposure>) -> Result<
 
 fn range(stock: &Stock, mid_grey: PerLayer<LogExposure>) -> (f64, f64) {
     let ends = stock.characteristic().zip_map(mid_grey, |curve, h| {
-        let (first, last) = curve.range();
+        let (first, last) = curve.range().into_inner();
         (first.0 - h.0, last.0 - h.0)
     });
     let [a, b, c] = ends.to_array();

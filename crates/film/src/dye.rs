@@ -1,8 +1,10 @@
-use onelight_spectra::{Nodes, Pchip, SpectralDistribution, SpectralShape, quantity::OpticalDensity};
+use std::ops::RangeInclusive;
 
-use crate::curve::DyeAmount;
-use crate::error::{Error, Kind};
+use onelight_spectra::{Pchip, SpectralDistribution, SpectralShape, TablePoints, quantity::OpticalDensity};
+
+use crate::error::{Error, ErrorKind};
 use crate::layer::PerLayer;
+use crate::quantity::DyeAmount;
 use crate::tail;
 
 /// Nodes nearer than this to the long end, in nm, give the slope of the tail.
@@ -14,6 +16,16 @@ const LEAST_FALL_PER_NM: f64 = 0.01;
 ///
 /// Between nodes a monotone cubic, clamped at 0. A dye goes on beyond its longest published wavelength with an
 /// exponential tail and holds its value below the shortest; a base holds at both ends.
+///
+/// ```
+/// use onelight_film::DyeDensity;
+/// use onelight_spectra::TablePoints;
+/// let published = TablePoints { x: vec![600.0, 650.0, 700.0], y: vec![0.62, 1.05, 0.55] };
+/// // The sheet's curve contains 0.05 of the film's base.
+/// let cyan = DyeDensity::dye(published, 0.05)?;
+/// assert!((cyan.at(650.0) - 1.0).abs() < 1e-12 && cyan.at(780.0) < 0.3);
+/// # Ok::<(), onelight_film::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct DyeDensity {
     density: Pchip,
@@ -22,15 +34,15 @@ pub struct DyeDensity {
 }
 
 impl DyeDensity {
-    /// An image dye from published nodes (nm, density), less the `base` that the published curve contains.
+    /// An image dye from published points (nm, density), less the `base` that the published curve contains.
     ///
     /// # Errors
     /// If there are fewer than two nodes, or wavelengths do not increase.
-    pub fn dye(nodes: Nodes, base: f64) -> Result<Self, Error> {
-        let y: Vec<f64> = nodes.y.iter().map(|d| (d - base).max(0.0)).collect();
+    pub fn dye(points: TablePoints, base: f64) -> Result<Self, Error> {
+        let y: Vec<f64> = points.y.iter().map(|d| (d - base).max(0.0)).collect();
         // The cubic goes through the published values; only its result is clamped.
-        let density = Pchip::new(nodes.x, nodes.y.iter().map(|d| d - base).collect())?;
-        let (_, last) = density.range();
+        let density = Pchip::new(points.x, points.y.iter().map(|d| d - base).collect())?;
+        let last = *density.range().end();
         let end = density.x().iter().copied().zip(y).filter(|&(nm, d)| last - nm < TAIL_NODES_NM && d > 0.0);
         let end: Vec<(f64, f64)> = end.map(|(nm, d)| (nm, d.ln())).collect();
         Ok(Self { density, tail: tail::slope(&end).min(-LEAST_FALL_PER_NM) })
@@ -40,18 +52,18 @@ impl DyeDensity {
     ///
     /// # Errors
     /// If there are fewer than two nodes, or wavelengths do not increase.
-    pub fn base(nodes: Nodes) -> Result<Self, Error> {
-        Ok(Self { density: Pchip::new(nodes.x, nodes.y)?, tail: 0.0 })
+    pub fn base(points: TablePoints) -> Result<Self, Error> {
+        Ok(Self { density: Pchip::new(points.x, points.y)?, tail: 0.0 })
     }
 
-    /// Density at a wavelength.
+    /// Density at a wavelength, published or not; never negative.
     #[must_use]
     pub fn at(&self, wavelength_nm: f64) -> f64 {
-        let beyond = (wavelength_nm - self.density.range().1).max(0.0);
+        let beyond = (wavelength_nm - self.density.range().end()).max(0.0);
         self.density.at(wavelength_nm).max(0.0) * (self.tail * beyond).exp()
     }
 
-    /// Density on a grid.
+    /// Density at the wavelengths of a grid.
     ///
     /// # Errors
     /// If a node's density lies beyond what a density may be.
@@ -59,20 +71,36 @@ impl DyeDensity {
         Ok(SpectralDistribution::from_fn(shape, |nm| self.at(nm))?)
     }
 
-    /// Published range in nm.
+    /// The published wavelengths in nm, first to last.
     #[must_use]
-    pub fn range_nm(&self) -> (f64, f64) {
+    pub fn range_nm(&self) -> RangeInclusive<f64> {
         self.density.range()
     }
 
-    /// The nodes: nm and density.
+    /// The wavelengths of the published points in nm, increasing.
     #[must_use]
-    pub fn nodes(&self) -> (&[f64], &[f64]) {
-        (self.density.x(), self.density.y())
+    pub fn wavelengths_nm(&self) -> &[f64] {
+        self.density.x()
+    }
+
+    /// The densities at [`DyeDensity::wavelengths_nm`], less the base; reading noise may leave some a little below 0.
+    #[must_use]
+    pub fn densities(&self) -> &[f64] {
+        self.density.y()
     }
 }
 
 /// The dyes of a film on one wavelength grid: cyan is made by the red layer, magenta by the green, yellow by the blue.
+///
+/// ```
+/// use onelight_film::{DyeAmount, Dyes, PerLayer};
+/// use onelight_spectra::{SpectralDistribution, SpectralShape};
+/// let density = |d: f64| SpectralDistribution::from_fn(SpectralShape::VISIBLE, move |_nm| d);
+/// let dyes = Dyes::new(PerLayer { red: density(0.2)?, green: density(0.3)?, blue: density(0.1)? }, Some(density(0.05)?))?;
+/// let film = dyes.density(PerLayer { red: DyeAmount(1.0), green: DyeAmount(0.0), blue: DyeAmount(2.0) });
+/// assert!((film.values()[0] - (0.05 + 0.2 + 2.0 * 0.1)).abs() < 1e-12);
+/// # Ok::<(), onelight_film::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dyes {
     dyes: PerLayer<SpectralDistribution<OpticalDensity>>,
@@ -92,25 +120,25 @@ impl Dyes {
         let expected = dyes.red.shape();
         for found in [&dyes.green, &dyes.blue].into_iter().chain(&d_min).map(SpectralDistribution::shape) {
             if found != expected {
-                return Err(Kind::Grids { found, expected }.into());
+                return Err(ErrorKind::Grids { found, expected }.into());
             }
         }
         Ok(Self { dyes, d_min })
     }
 
-    /// Density of one unit of each dye.
+    /// Spectral density of one unit of each dye.
     #[must_use]
     pub fn dyes(&self) -> PerLayer<&SpectralDistribution<OpticalDensity>> {
         self.dyes.as_ref()
     }
 
-    /// Density of the film without any dye.
+    /// Spectral density of the film without any dye; `None` where the dyes' curves are total densities.
     #[must_use]
     pub fn d_min(&self) -> Option<&SpectralDistribution<OpticalDensity>> {
         self.d_min.as_ref()
     }
 
-    /// The wavelength grid of all of them.
+    /// The one wavelength grid of dyes and base.
     #[must_use]
     pub fn shape(&self) -> SpectralShape {
         self.dyes.red.shape()
@@ -133,9 +161,9 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    fn nodes(y: &[f64]) -> Nodes {
+    fn nodes(y: &[f64]) -> TablePoints {
         let x = (0..y.len()).map(|i| 600.0 + 5.0 * i as f64).collect();
-        Nodes { x, y: y.to_vec(), lines: vec![1; y.len()] }
+        TablePoints { x, y: y.to_vec() }
     }
 
     #[test]
