@@ -10,7 +10,7 @@ mod exposure;
 mod folders;
 mod likeness;
 mod look;
-pub mod picture;
+mod picture_file;
 mod plot;
 mod preview;
 mod progress;
@@ -70,6 +70,7 @@ struct Report {
 
 /// Runs what the command line asks for; 2 where it failed, with one sentence on the standard error.
 pub fn main() -> ExitCode {
+    onelight_picture::silence_panics_while_reading();
     let printed = run(Arguments::parse().command).and_then(|report| print(&report));
     let Err(error) = printed else { return ExitCode::SUCCESS };
     // Where even this cannot be written, only the status is left to tell.

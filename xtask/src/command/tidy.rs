@@ -15,7 +15,7 @@ pub(crate) struct Arguments {
 }
 
 /// A crate of the workspace and the crates of ours that it may depend on.
-const LAYERS: [(&str, &[&str]); 9] = [
+const LAYERS: [(&str, &[&str]); 10] = [
     ("crates/spectra", &[]),
     ("crates/film", &["onelight-spectra"]),
     ("crates/printing", &["onelight-spectra", "onelight-film"]),
@@ -25,17 +25,19 @@ const LAYERS: [(&str, &[&str]); 9] = [
         "crates/onelight",
         &["onelight-spectra", "onelight-film", "onelight-printing", "onelight-lut", "onelight-gpu", "onelight-stocks"],
     ),
+    ("crates/picture", &[]),
     ("stocks", &[]),
     ("benches", &["onelight", "onelight-lut"]),
-    ("xtask", &["onelight", "onelight-lut", "onelight-gpu"]),
+    ("xtask", &["onelight", "onelight-lut", "onelight-gpu", "onelight-picture"]),
 ];
 /// Names that say nothing about what is in a module.
 const EMPTY_NAMES: [&str; 5] = ["util", "core", "common", "math", "helpers"];
 /// Words that a crate's code (not its comments) does not use.
-const FOREIGN_WORDS: [(&str, &[&str]); 3] = [
+const FOREIGN_WORDS: [(&str, &[&str]); 4] = [
     ("crates/spectra", &["film", "emulsion", "negative_stock", "printer", "stock"]),
     ("crates/film", &["printer", "lut", "projector", "screen"]),
     ("crates/printing", &["lut", "kodak", "fuji"]),
+    ("crates/picture", &["film", "printer", "stock", "lut"]),
 ];
 /// Longest file, in lines.
 const MAX_LINES: usize = 500;

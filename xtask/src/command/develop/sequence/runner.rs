@@ -17,7 +17,7 @@ use super::budget::{Budget, needed};
 use super::digest::{Recipe, is_done};
 use super::plan::Frame;
 use super::tally::Tally;
-use crate::picture::open;
+use crate::picture_file::open;
 
 /// What became of a frame.
 #[derive(Debug)]
