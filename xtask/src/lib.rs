@@ -11,7 +11,7 @@ mod exposure;
 mod finish;
 mod folders;
 mod look;
-pub mod picture;
+mod picture_file;
 mod plot;
 mod preview;
 mod progress;
@@ -66,6 +66,7 @@ enum Command {
 
 /// Runs what the command line asks for; 2 where it failed, with one sentence on the standard error.
 pub fn main() -> ExitCode {
+    onelight_picture::silence_panics_while_reading();
     let printed = run(Arguments::parse().command).and_then(|report| print(&report));
     let Err(error) = printed else { return ExitCode::SUCCESS };
     // Where even this cannot be written, only the status is left to tell.

@@ -7,7 +7,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 use std::{fs, str, thread};
 
-use xtask::picture::{Limits, read_picture};
+use onelight_picture::{Limits, Picture};
 
 /// How many files are made.
 const FILES: usize = 400;
@@ -98,7 +98,7 @@ fn survives(folder: &Path, index: usize, name: &str, bytes: &[u8]) -> bool {
     let written = folder.join(&output);
     match done.status.code() {
         Some(0) => {
-            let picture = read_picture(&fs::read(&written).unwrap(), &Limits::default());
+            let picture = Picture::read(fs::File::open(&written).unwrap(), "", Limits::default());
             let picture = picture.unwrap_or_else(|error| panic!("{name}: what was written is no picture: {error}"));
             assert_eq!(picture.rgb.len(), picture.width * picture.height, "{name}");
             assert!(failed.is_empty(), "{name}: {failed}");

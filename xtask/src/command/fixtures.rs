@@ -6,10 +6,11 @@ use clap::Args;
 use onelight::lut::Deviation;
 use onelight::{Process, Reference};
 use onelight_fixtures::{CAMERA_FILM, ExposedScene, layers, patches};
+use onelight_picture::{Picture, Source};
 use rayon::prelude::*;
 use serde_json::json;
 
-use crate::picture::{Picture, Source, write_exr};
+use crate::picture_file::write_exr;
 use crate::progress::Clock;
 use crate::{Report, folders};
 
@@ -103,8 +104,9 @@ fn in_half(pixels: &[[f32; 3]]) -> Vec<[f32; 3]> {
 
 #[cfg(test)]
 mod tests {
+    use onelight_picture::Limits;
+
     use super::*;
-    use crate::picture::{Limits, read};
 
     /// Half precision, and what another processor's rounding may add.
     const TOLERANCE: f32 = 2e-3;
@@ -115,7 +117,8 @@ mod tests {
         let scene = ExposedScene::render(SMALL, &film).unwrap();
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures/scene");
         for (file, pixels) in [("scene.exr", scene.rgb), ("exposure_kodak-5207.exr", scene.exposure)] {
-            let copy = read(&folder.join(file), &Limits::default()).unwrap();
+            let copy = std::fs::File::open(folder.join(file)).unwrap();
+            let copy = Picture::read(copy, file, Limits::default()).unwrap();
             assert_eq!((copy.width, copy.height), SMALL);
             for (i, (a, b)) in copy.rgb.iter().flatten().zip(pixels.iter().flatten()).enumerate() {
                 assert!(

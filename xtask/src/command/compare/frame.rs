@@ -7,9 +7,10 @@ use anyhow::{Context, Result, bail};
 use onelight::Process;
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Basis, Chromaticity, Reconstruction, RgbSpace, color_checker};
+use onelight_picture::{Description, Limits, Source};
 
 use crate::command::develop::exposure::Exposure;
-use crate::picture::{Band, Description, Limits, Source, open};
+use crate::picture_file::open;
 use crate::scene_colours;
 
 /// Width of a tile in pixels; height of the scene's.
@@ -92,14 +93,9 @@ pub(super) fn user(path: &Path, exposure: Exposure) -> Result<Frame> {
     let size = [width, height].map(|pixels| ((pixels as f64 / shrink) as usize).max(1));
     // Sums of the finite pixels that fall on each small one, and their number.
     let mut sums = vec![(Vector3::zeros(), 0.0); size[0] * size[1]];
-    let mut band = Band::default();
-    loop {
-        picture.next_into(&mut band)?;
-        if band.rgb.is_empty() {
-            break;
-        }
-        for (i, rgb) in band.rgb.iter().enumerate().filter(|(_, rgb)| rgb.iter().all(|v| v.is_finite())) {
-            let (x, y) = (i % width * size[0] / width, (band.top + i / width) * size[1] / height);
+    while let Some(band) = picture.next_band()? {
+        for (i, rgb) in band.rgb().iter().enumerate().filter(|(_, rgb)| rgb.iter().all(|v| v.is_finite())) {
+            let (x, y) = (i % width * size[0] / width, (band.top() + i / width) * size[1] / height);
             let (sum, count) = &mut sums[y * size[0] + x];
             *sum += Vector3::from(rgb.map(f64::from));
             *count += 1.0;

@@ -4,10 +4,10 @@ use anyhow::Result;
 use clap::ValueEnum;
 use indicatif::ProgressBar;
 use onelight::{Look, Process};
+use onelight_picture::Band;
 use rayon::prelude::*;
 
 use crate::compiled::{self, Compiled, Recipe};
-use crate::picture::Band;
 
 /// How the film is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -60,7 +60,7 @@ impl Film {
                 progress.inc(1);
             }),
             Self::Compiled(compiled) => {
-                compiled.apply_to_slice(&mut band.rgb);
+                compiled.apply_to_slice(band.rgb_mut());
                 progress.inc(band.rows() as u64);
             }
         }

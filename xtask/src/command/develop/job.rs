@@ -6,6 +6,9 @@ use anyhow::{Context, Result, bail};
 use indicatif::ProgressBar;
 use onelight::spectra::Chromaticity;
 use onelight::{Process, TransferCurve};
+use onelight_picture::{
+    Band, BandSink, Chromaticities, ColourTag, Description, Limits, PngBits, PngSettings, PngTransfer,
+};
 use rayon::prelude::*;
 
 use super::bands::{Busy, look_through, pass};
@@ -13,10 +16,7 @@ use super::exposure::{Exposure, Meter};
 use super::film::Film;
 use super::light::{InputPrimaries, Light};
 use crate::exposure::SceneExposure;
-use crate::picture::{
-    Band, BandSink, Bits, Chromaticities, Coding, ColourTag, Description, Limits, open, write_exr_bands,
-    write_png_bands,
-};
+use crate::picture_file::{open, write_exr_bands, write_png_bands};
 
 /// Everything that decides how a picture is developed; the same for all pictures of a run.
 pub(super) struct Settings {
@@ -36,7 +36,7 @@ pub(super) struct Settings {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Target {
     /// The display window, display-coded.
-    Png(Bits),
+    Png(PngBits),
     /// The data window, linear.
     Exr,
 }
@@ -123,7 +123,7 @@ pub(super) fn develop_picture(settings: &Settings, order: &Order<'_>, progress: 
 
 /// Pixels with a channel over `max`.
 fn brighter(band: &Band, max: f64) -> usize {
-    let rows = band.rgb.par_chunks(band.width.max(1));
+    let rows = band.rgb().par_chunks(band.width().max(1));
     rows.map(|row| row.iter().filter(|rgb| rgb.iter().any(|v| f64::from(*v) > max)).count()).sum()
 }
 
@@ -148,12 +148,13 @@ fn write<T>(
     match target {
         Target::Exr => write_exr_bands(path, &picture, &texts, fill),
         Target::Png(bits) => {
-            let coding = match process.output_coding {
-                TransferCurve::Srgb => Coding::Srgb,
-                TransferCurve::Gamma24 => Coding::Gamma24,
-                TransferCurve::Linear => Coding::Linear,
+            let transfer = match process.output_coding {
+                TransferCurve::Srgb => PngTransfer::Srgb,
+                TransferCurve::Gamma24 => PngTransfer::Gamma24,
+                TransferCurve::Linear => PngTransfer::Linear,
             };
-            write_png_bands(path, &picture, bits, Some(&ColourTag { coding, primaries }), &texts, fill)
+            let settings = PngSettings { bits, tag: Some(ColourTag { transfer, primaries }) };
+            write_png_bands(path, &picture, settings, &texts, fill)
         }
     }
 }

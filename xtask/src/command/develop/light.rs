@@ -4,11 +4,11 @@ use anyhow::{Context, Result};
 use onelight::spectra::Chromaticity;
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::{Process, TransferCurve, Word};
+use onelight_picture::{Band, Description, RowMut, Source, TiffSamples};
 use rayon::prelude::*;
 
 use super::exposure::{Meter, RowLight};
 use crate::exposure::SceneExposure;
-use crate::picture::{Band, Description, RowMut, Samples, Source};
 use crate::scene_colours;
 
 /// Whose word counts for the primaries of a picture.
@@ -121,8 +121,8 @@ fn coding_of(picture: &Description, named: Option<TransferCurve>, notes: &mut Ve
             TransferCurve::Linear
         }
         (Some(coding), _) => coding,
-        (None, Source::Exr | Source::Tiff { samples: Samples::Float, .. }) => TransferCurve::Linear,
-        (None, Source::Png { .. } | Source::Tiff { samples: Samples::Integer, .. }) => {
+        (None, Source::Exr | Source::Tiff { samples: TiffSamples::Float, .. }) => TransferCurve::Linear,
+        (None, Source::Png { .. } | Source::Tiff { samples: TiffSamples::Integer, .. }) => {
             notes.push("the picture's integers are taken for sRGB-coded (--input-coding says otherwise)".to_owned());
             TransferCurve::Srgb
         }

@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use clap::Args;
 use onelight::{TransferCurve, Word};
+use onelight_picture::{Limits, PngBits};
 use serde_json::json;
 
 use self::exposure::Exposure;
@@ -22,7 +23,6 @@ use self::paths::same_file;
 use self::sequence::{FrameNumbers, Memory, Shard, Summary};
 use crate::exposure::ExposureArguments;
 use crate::look::LookArguments;
-use crate::picture::{Bits, Limits};
 use crate::progress::{Clock, bar};
 use crate::words::words;
 use crate::{Report, atomic_file, folders};
@@ -168,8 +168,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
 
 fn target(path: &Path, bits: Option<&str>) -> Result<Target> {
     match path.extension().map(|e| e.to_string_lossy().to_lowercase()).as_deref() {
-        Some("png") if bits == Some("16") => Ok(Target::Png(Bits::Sixteen)),
-        Some("png") => Ok(Target::Png(Bits::Eight)),
+        Some("png") if bits == Some("16") => Ok(Target::Png(PngBits::Sixteen)),
+        Some("png") => Ok(Target::Png(PngBits::Eight)),
         Some("exr") => Ok(Target::Exr),
         _ => bail!("{}: the output's name ends in neither .png nor .exr, expected one of them", path.display()),
     }

@@ -18,7 +18,7 @@ use super::digest::{Recipe, is_done};
 use super::outcome::Outcome;
 use super::plan::Frame;
 use super::progress::JobProgress;
-use crate::picture::open;
+use crate::picture_file::open;
 
 /// Develops `frames`, as many at once as `budget` and `at_once` allow; what became of each, in their order. `done` hears
 /// of each as it is finished.
