@@ -27,7 +27,6 @@ use anyhow::Result;
 use clap::{Parser, Subcommand};
 
 // The picture writers know the module by this name until they are a crate.
-use atomic_file as whole;
 use finish::{Report, print};
 
 /// Film simulation for HDR pictures.
