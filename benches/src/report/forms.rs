@@ -5,9 +5,9 @@ use onelight::{DirectSettings, Entries, Look, Nodes, Reference, StructuredSettin
 use serde::Serialize;
 
 use super::scope::Scope;
-use crate::baker::{Baker, PlainShaper, PlainTable};
 use crate::error::Result;
 use crate::form::Form;
+use crate::plain_table::{PlainShaper, PlainTable};
 
 /// What a figure belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
@@ -80,7 +80,7 @@ const GRIDS_NM: [usize; 5] = [1, 2, 5, 10, 20];
 const FITTED: [[usize; 2]; 9] = [[3, 4], [3, 5], [4, 6], [4, 7], [4, 8], [5, 9], [5, 10], [6, 12], [7, 14]];
 
 /// All forms of a look, those of one time next to each other.
-pub(super) fn all(film: &Reference, scope: Scope, baker: &dyn Baker, done: impl Fn()) -> Result<Vec<Made>> {
+pub(super) fn all(film: &Reference, scope: Scope, done: impl Fn()) -> Result<Vec<Made>> {
     let look = Look::from(film.clone());
     let (plain, structured): (&[usize], &[usize]) = match scope {
         Scope::Full => (&[17, 33, 65], &[8, 16, 24, 32, 48, 64]),
@@ -97,10 +97,10 @@ pub(super) fn all(film: &Reference, scope: Scope, baker: &dyn Baker, done: impl 
     };
     let of_plain = |size, stops| {
         let table = PlainTable { size, shaper: PlainShaper::Fitted { stops }, entries: Entries::Fitted };
-        table.bake(&look, baker).map(Form::Plain)
+        table.bake(&look).map(Form::Plain)
     };
     let talk = PlainTable { size: 32, shaper: PlainShaper::Gotanda, entries: Entries::Sampled };
-    add(Kind::Talk, Form::Plain(talk.bake(&look, baker)?), &[Storage::F16], None, "")?;
+    add(Kind::Talk, Form::Plain(talk.bake(&look)?), &[Storage::F16], None, "")?;
     for &size in plain {
         let all = [&STORED_DENSITY[..], &STORED_DISPLAY[1..]].concat();
         add(Kind::Plain, of_plain(size, None)?, &all, None, "")?;

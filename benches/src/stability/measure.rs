@@ -10,10 +10,10 @@ use super::cases::{Case, Order, Strand, general};
 use super::gpu::Card;
 use super::hard_inputs;
 use super::implementations::{Kind, Output, outputs};
-use crate::baker::{Baker, PlainShaper, PlainTable};
 use crate::error::Result;
 use crate::form::Form;
 use crate::look::PLAIN_SIZE;
+use crate::plain_table::{PlainShaper, PlainTable};
 
 /// What can go wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -116,9 +116,9 @@ struct Measured {
 ///
 /// # Errors
 /// If the process does not compile, or the card cannot develop.
-pub fn rows(process: &Process, card: Option<&Card>, baker: &dyn Baker, progress: impl Fn()) -> Result<Vec<Row>> {
+pub fn rows(process: &Process, card: Option<&Card>, progress: impl Fn()) -> Result<Vec<Row>> {
     let look = process.look()?;
-    let forms = forms(&look, baker)?;
+    let forms = forms(&look)?;
     progress();
     let subject = Subject::new(process, look, &forms)?;
     let mut rows = subject.of_film();
@@ -141,21 +141,21 @@ pub fn rows(process: &Process, card: Option<&Card>, baker: &dyn Baker, progress:
 pub const STEPS: usize = 2 + FORMS;
 
 /// The forms as they usually are.
-fn forms(look: &Look, baker: &dyn Baker) -> Result<[Form; FORMS]> {
+fn forms(look: &Look) -> Result<[Form; FORMS]> {
     let film = look.film()?;
     let shaper = PlainShaper::Fitted { stops: None };
     let plain = PlainTable { size: PLAIN_SIZE, shaper, entries: Entries::Sampled };
     Ok([
         Form::Direct(Box::new(film.direct(&DirectSettings::default())?)),
         Form::Structured(Box::new(film.structured(&StructuredSettings::default())?)),
-        Form::Plain(plain.bake(look, baker)?),
+        Form::Plain(plain.bake(look)?),
     ])
 }
 
 impl Subject {
     fn new(process: &Process, look: Look, forms: &[Form]) -> Result<Self> {
         let film = look.film()?;
-        let mut cases = general(process.input_space)?;
+        let mut cases = general(process.spaces().input_space)?;
         cases.extend([hard_inputs::steepest(film), hard_inputs::dense(film)]);
         for form in forms {
             match form {
@@ -166,8 +166,8 @@ impl Subject {
                 Form::Direct(_) => {}
             }
         }
-        let luminance = process.output_space.space().to_xyz()?.row(1).transpose();
-        let name = format!("{}, {} aim", process.name(), process.aim.word());
+        let luminance = process.spaces().output_space.space().to_xyz()?.row(1).transpose();
+        let name = format!("{}, {} aim", process.name(), process.aim().word());
         let strands = cases.iter().flat_map(|case| &case.strands);
         let colours: Vec<[f32; 3]> = strands.flat_map(|strand| &strand.colours).copied().collect();
         let linear = colours.par_iter().map(|rgb| look.develop_linear(rgb.map(f64::from))).collect();

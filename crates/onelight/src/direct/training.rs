@@ -30,7 +30,7 @@ pub(super) struct Training {
 
 /// Exposures of the colours, in stops about mid grey: until every layer of every film is clear or full.
 const STOPS: (f64, f64) = (-10.0, 14.0);
-/// Colours.
+/// Colours that each stage is fitted to.
 const COUNT: usize = 1024;
 const SEED: u64 = 0x666d_6469_7231_3031;
 /// Difference that a miss of a whole print exposure counts for where the print hardly responds: keeps sums from falling to 0.
@@ -90,9 +90,8 @@ const PROBES: usize = 256;
 impl<'a> Probes<'a> {
     pub(super) fn new(film: &'a Reference) -> Result<Self, Error> {
         let drawn: Vec<[f64; 3]> = SceneSampler::with_seed(STOPS.0..=STOPS.1, !SEED)?.take(PROBES).collect();
-        let from_srgb = film.to_srgb().try_inverse().unwrap_or_else(Matrix3::identity);
         let colours = drawn.into_par_iter().enumerate().map(|(i, rgb)| {
-            let input = <[f64; 3]>::from(from_srgb * Vector3::from(towards_the_edge(i, rgb))).map(|v| v as f32);
+            let input = film.input_of_srgb(towards_the_edge(i, rgb)).map(|v| v as f32);
             (input, film.develop_linear(input.map(f64::from)))
         });
         Ok(Self { film, difference: film.difference()?, colours: colours.collect() })
@@ -136,6 +135,7 @@ fn seen(difference: &DisplayDifference, rgb: Vector3<f64>) -> Matrix3<f64> {
         (lab(inside + step) - lab(inside - step)) / (2.0 * STEP) / (1.0 + (rgb[k] - inside[k]).abs() / OUTSIDE)
     };
     let slopes = Matrix3::from_columns(&[slope(0), slope(1), slope(2)]);
+    // Where rounding leaves no positive form, CIELAB's own distance serves: weights of a fit need not be exact.
     let root = local(lab(inside)).cholesky().map_or_else(Matrix3::identity, |root| root.l().transpose());
     root * slopes
 }
