@@ -69,8 +69,7 @@ impl Process {
     /// If it is no TOML, has an unknown key or word (the message names line and nearest), or another version.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, Error> {
         let at = |line: usize, problem: String| {
-            let plain = |c: char| if c.is_control() { ' ' } else { c };
-            let problem = problem.chars().take(MESSAGE_CHARACTERS).map(plain).collect();
+            let problem = onelight_film::printable(&problem, MESSAGE_CHARACTERS);
             Error::from(Kind::Look { file: file.to_owned(), line, problem })
         };
         if text.len() > MAX_BYTES {
