@@ -34,14 +34,15 @@ impl DisplayDifference {
 
     /// CIELAB of a display-linear RGB, clipped to [0, 1]; NaN counts as 0.
     #[must_use]
-    pub fn lab(&self, rgb: [f64; 3]) -> [f64; 3] {
-        let clipped = rgb.map(|v| if v.is_nan() { 0.0 } else { v.clamp(0.0, 1.0) });
+    pub fn lab(&self, display_linear: [f64; 3]) -> [f64; 3] {
+        let clipped = display_linear.map(|v| if v.is_nan() { 0.0 } else { v.clamp(0.0, 1.0) });
         let xyz = self.relative * Vector3::from(clipped);
         let [fx, fy, fz] = [lab_root(xyz.x), lab_root(xyz.y), lab_root(xyz.z)];
         [116.0 * fy - 16.0, 500.0 * (fx - fy), 200.0 * (fy - fz)]
     }
 
-    /// CIEDE2000 between two display-linear RGB values.
+    /// CIEDE2000 between two display-linear RGB values; coded ones must be decoded before
+    /// ([`TransferCurve::decode`](crate::TransferCurve::decode)).
     #[must_use]
     pub fn between(&self, a: [f64; 3], b: [f64; 3]) -> f64 {
         ciede2000(self.lab(a), self.lab(b))

@@ -7,7 +7,8 @@
 //! - [`BufferFormat`]: what a low-precision frame buffer keeps of a picture
 //! - [`Basis`]: a spectrum for an RGB value ([`Reconstruction`] says which)
 //! - [`lux_to_w_per_m2`], [`lamp_rgb_w_per_m2`]: photometric to radiometric quantities
-//! - [`DisplayDifference`]: CIEDE2000 between two pictures
+//! - [`DisplayDifference`]: CIEDE2000 between two pictures (feature `ciede2000`, on by default)
+//! - [`TablePoints`], [`Pchip`]: measured curves, linear or monotone cubic between their points
 //!
 //! ```
 //! use onelight_spectra::{Basis, Observer, Reconstruction, SpectralShape};
@@ -19,6 +20,14 @@
 //! assert!((red - 0.18).abs() < 1e-9 && (blue - 0.02).abs() < 1e-9);
 //! # Ok::<(), onelight_spectra::Error>(())
 //! ```
+//!
+//! # Which RGB
+//! Three kinds of RGB meet in a picture's way, all of them `[f64; 3]`, and each name says which it is:
+//!
+//! - scene-linear: light of the scene, a grey card at [`MID_GREY`], no upper end. [`Basis`] takes it, about the 6500 K white.
+//! - display-linear: light of a screen, whose white is 1. [`DisplayDifference`] takes it.
+//! - coded: what files and cables carry. [`CodedSpace`], [`SceneCurve`] and [`TransferCurve`] `encode` linear values and `decode`
+//!   coded ones.
 //!
 //! # Out of scope
 //! Film, printers, look-up tables and pictures; chromatic adaptation other than "white is white"; fluorescence.

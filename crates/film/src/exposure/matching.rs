@@ -87,10 +87,10 @@ impl ExposureMatrix {
         Self { matrix: self.matrix * factor, matching: self.matching.map(|c| c * factor) }
     }
 
-    /// Exposure of each layer for a scene RGB (sRGB primaries, 6500 K white), on the axis of the characteristic curves.
+    /// Exposure of each layer for a scene-linear RGB (sRGB primaries, 6500 K white), on the axis of the characteristic curves.
     #[must_use]
-    pub fn expose(&self, rgb: [f64; 3]) -> PerLayer<f64> {
-        PerLayer::from(<[f64; 3]>::from(self.matrix * Vector3::from(rgb)))
+    pub fn expose(&self, scene_linear: [f64; 3]) -> PerLayer<f64> {
+        PerLayer::from(<[f64; 3]>::from(self.matrix * Vector3::from(scene_linear)))
     }
 
     /// The matrix, the matching vector in it; row i is layer i.

@@ -105,8 +105,8 @@ impl Basis {
     /// with the pseudo-inverse for any; `SpectralDistribution::<Power>::try_from` tells. NaN counts as 0, infinities as
     /// ±[`SCENE_MAX`](crate::SCENE_MAX).
     #[must_use]
-    pub fn spectrum(&self, rgb: [f64; 3]) -> SpectralDistribution<SignedPower> {
-        let ([r, g, b], rgb) = (&self.reflectance, rgb.map(finite));
+    pub fn spectrum(&self, scene_linear: [f64; 3]) -> SpectralDistribution<SignedPower> {
+        let ([r, g, b], rgb) = (&self.reflectance, scene_linear.map(finite));
         let mix = (0..r.len()).map(|i| self.white.values()[i] * (rgb[0] * r[i] + rgb[1] * g[i] + rgb[2] * b[i]));
         SpectralDistribution::trusted(SpectralShape::VISIBLE, mix.collect())
     }

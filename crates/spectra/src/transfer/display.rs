@@ -1,5 +1,5 @@
-/// How linear light becomes the numbers of a finished picture ([`SceneCurve`] has those of cameras). Each curve is odd: `encode(-v) = -encode(v)`, so that colours
-/// outside the gamut survive until a file format clips them.
+/// How linear light becomes the numbers of a finished picture ([`SceneCurve`](crate::SceneCurve) has those of cameras). Each curve
+/// is odd: `encode(-v) = -encode(v)`, so that colours outside the gamut survive until a file format clips them.
 ///
 /// ```
 /// use onelight_spectra::TransferCurve;
