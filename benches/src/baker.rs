@@ -22,8 +22,8 @@ pub trait Baker: Sync {
     /// As [`Look::develop`]'s forms: if a result is not finite.
     fn fit(&self, look: &Look, shaper: &Shaper, table: &Lut3d) -> Result<Lut3d>;
 
-    /// How far each form lies from the look of a process over colours drawn by a law; `step` is called after the colours are developed and after
-    /// each form.
+    /// How far each form lies from the look of a process over the colours that `law` draws; `step` is called after the colours are
+    /// developed and after each form.
     ///
     /// # Errors
     /// If the law or the look's spaces are impossible.
@@ -40,7 +40,7 @@ pub trait Baker: Sync {
 /// CIEDE2000 of a form from its look.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Difference {
-    /// Over all colours.
+    /// Mean over all colours drawn.
     pub mean: f64,
     /// The mean of the worst of five bands of four stops.
     pub worst_band: f64,
@@ -64,7 +64,7 @@ pub(crate) struct PlainTable {
 
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum PlainShaper {
-    /// That of \[Gotanda2010\].
+    /// log2(u + 0.191406), 0 to 4, as \[Gotanda2010\] has it.
     Gotanda,
     /// Fitted to the look, to a range that ends there or is fitted too.
     Fitted { stops: Option<f64> },

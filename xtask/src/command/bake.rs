@@ -189,7 +189,7 @@ fn formats(arguments: &Arguments, form: Form) -> Result<Vec<Format>> {
     }
 }
 
-/// What the files are worth: certificates of their numbers as written, and the deviation on the user's own pictures.
+/// Certificates of the files' numbers as written, and the deviation on the user's own pictures.
 struct Measured {
     /// By format, in the order asked for.
     files: Vec<(Format, Certificate)>,
@@ -268,7 +268,7 @@ impl Measured {
 
 /// A few lines for formats that hold comments.
 fn comments(process: &Process, compiled: &Compiled, measured: Option<&Measured>) -> Vec<String> {
-    let worth = match measured.map(Measured::srgb) {
+    let accuracy = match measured.map(Measured::srgb) {
         Some(certificate) => {
             let (mean, max) = to_six_stops(certificate);
             format!(
@@ -292,7 +292,7 @@ fn comments(process: &Process, compiled: &Compiled, measured: Option<&Measured>)
             process.output_space.word(),
             process.output_coding.word()
         ),
-        worth,
+        accuracy,
     ]
 }
 
@@ -324,7 +324,7 @@ fn json(
     let Some(measured) = measured else { return json };
     let limit = arguments.max_de.unwrap_or(WARN_ABOVE);
     let (mid_grey, largest, stops) = measured.tint;
-    let worth = json!({
+    let accuracy = json!({
         "unit": "CIEDE2000",
         "certificate": measured.srgb(),
         "certificates": measured.files.iter().map(|(f, c)| (f.word(), json!(c))).collect::<serde_json::Map<_, _>>(),
@@ -334,8 +334,8 @@ fn json(
         "limit": limit,
         "failures": measured.srgb().failures(limit),
     });
-    if let (Some(json), serde_json::Value::Object(worth)) = (json.as_object_mut(), worth) {
-        json.extend(worth);
+    if let (Some(json), serde_json::Value::Object(accuracy)) = (json.as_object_mut(), accuracy) {
+        json.extend(accuracy);
     }
     json
 }

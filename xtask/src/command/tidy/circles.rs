@@ -247,10 +247,7 @@ mod tests {
         ];
         assert_eq!(found(&files), Vec::<String>::new());
         // To pass on is not to import.
-        let files = [
-            ("src/lib.rs", "mod a; pub use a::A; pub struct B;"),
-            ("src/a.rs", "use crate::B; pub struct A;"),
-        ];
+        let files = [("src/lib.rs", "mod a; pub use a::A; pub struct B;"), ("src/a.rs", "use crate::B; pub struct A;")];
         assert_eq!(found(&files), Vec::<String>::new());
         // Through a glob too.
         let files = [
