@@ -11,7 +11,7 @@ pub struct Progress {
     pub steps: u64,
 }
 
-/// Told of every step.
+/// Called at the beginning of a part, at every step, and at its end; from any thread.
 pub type OnProgress<'a> = &'a (dyn Fn(Progress) + Sync);
 
 /// The steps of one part; it ends with this.
@@ -28,7 +28,7 @@ impl<'a> Steps<'a> {
         Self { part, done: AtomicU64::new(0), steps, tell }
     }
 
-    /// One step more; the last one is told at the end of the part.
+    /// Counts one step; the last one is reported where the part ends.
     pub(crate) fn step(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         if done < self.steps {
@@ -50,13 +50,13 @@ mod tests {
 
     #[test]
     fn a_part_begins_steps_and_ends_once() {
-        let told = Mutex::new(Vec::new());
-        let tell = |progress: Progress| told.lock().unwrap().push(progress.done);
+        let seen = Mutex::new(Vec::new());
+        let tell = |progress: Progress| seen.lock().unwrap().push(progress.done);
         let steps = Steps::new("a part", 3, &tell);
         (0..3).for_each(|_| steps.step());
         drop(steps);
         // Ended early: an error, say.
         drop(Steps::new("another", 2, &tell));
-        assert_eq!(*told.lock().unwrap(), [0, 1, 2, 3, 0, 2]);
+        assert_eq!(*seen.lock().unwrap(), [0, 1, 2, 3, 0, 2]);
     }
 }

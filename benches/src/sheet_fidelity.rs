@@ -164,7 +164,7 @@ fn grey_above_d_min(film: &Stock) -> Result<Option<[f64; 3]>> {
     Ok((film.kind() == StockKind::Negative).then(|| above.to_array()))
 }
 
-/// The table as Markdown.
+/// The table as Markdown, a row for each film, as docs/stocks.md holds it.
 pub fn table(found: &[SheetFidelity]) -> String {
     let mut text =
         "| film | curves | D-min | neutral | grey card | gamma | tint of greys | chroma | hue, mean | hue, largest | stands in |\n\

@@ -35,7 +35,7 @@ struct Panel {
     mark: Option<(f64, &'static str)>,
 }
 
-/// Writes the plot.
+/// Writes a stock's plot as SVG.
 pub(crate) fn write(path: &Path, stock: &Stock) -> Result<()> {
     let mut svg = String::new();
     draw(&mut svg, stock).map_err(|error| anyhow!("{}: the plot cannot be drawn: {error}", path.display()))?;

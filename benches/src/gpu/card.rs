@@ -33,7 +33,7 @@ struct Clock {
 }
 
 impl Card {
-    /// The fastest adapter.
+    /// Opens the fastest adapter; software only where that is allowed.
     pub(super) fn open(allow_software: bool) -> Result<Self> {
         let instance = Instance::new(InstanceDescriptor::new_without_display_handle());
         let options =

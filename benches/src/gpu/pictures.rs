@@ -54,7 +54,7 @@ impl Targets {
         Self { views: views.collect(), turn: AtomicUsize::new(0) }
     }
 
-    /// The next pair.
+    /// The next pair of pictures to read and to write, in turns over all.
     pub(super) fn next<'a>(&'a self, sources: &'a Sources) -> (&'a TextureView, &'a TextureView) {
         let turn = self.turn.fetch_add(1, Ordering::Relaxed) % PAIRS;
         (&sources.views[turn], &self.views[turn])

@@ -27,7 +27,7 @@ const STRUCTURED_SIZE: usize = 32;
 /// The part of the card's copy bandwidth that the copy pass has to reach, for ratios to it to mean something.
 const LEAST_BANDWIDTH: f64 = 0.8;
 
-/// One measured pass.
+/// The time of one pass between two formats.
 struct Row {
     subject: Option<usize>,
     size: [u32; 2],

@@ -1,4 +1,4 @@
-//! Axes of charts: values to places, and the values worth writing.
+//! Axes of charts: values to places, and the values that are written beside them.
 
 use super::text::plain;
 

@@ -17,7 +17,7 @@ pub(super) struct Contents {
     pub(super) content: &'static str,
     pub(super) copy: Timing,
     pub(super) looks: Vec<(Look, Studies)>,
-    /// Of the first look.
+    /// How cost grows, measured on the first look.
     pub(super) growth: Growth,
     pub(super) elsewhere: Elsewhere,
     /// How long each part took, in words.

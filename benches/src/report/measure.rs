@@ -26,7 +26,7 @@ pub(super) struct Row {
     pub(super) nodes: Option<[usize; 2]>,
     /// Of all tables and curves; `None` for the reference.
     pub(super) bytes: Option<usize>,
-    /// On one thread.
+    /// Time for a pixel on one thread.
     pub(super) time: Timing,
     pub(super) error: Difference,
 }
@@ -52,7 +52,7 @@ pub(super) struct Look {
     /// The films by their makers' names, and the aim.
     pub(super) title: String,
     pub(super) process: Process,
-    /// The exact film last.
+    /// Every form, by kind; the exact film comes last.
     pub(super) rows: Vec<Row>,
 }
 

@@ -38,15 +38,15 @@ use self::studies::{Studies, growth};
 use crate::error::{Error, Result};
 use crate::progress::OnProgress;
 
-/// What was measured.
+/// Speed and error of every form of some looks, and what their parts cost.
 pub struct Report(Contents);
 
-/// Who is told what while a report is measured.
+/// Callbacks of a measurement.
 #[derive(Clone, Copy)]
 pub struct Listener<'a> {
-    /// Told of every step.
+    /// Called at every step.
     pub progress: OnProgress<'a>,
-    /// Told how long a part took, by its name; parts of one name come several times.
+    /// Called with the name of a part and how long it took; parts of one name come several times.
     pub time: &'a dyn Fn(&'static str, Duration),
 }
 

@@ -14,7 +14,7 @@ const CHART_CSS: &str = include_str!("chart.css");
 const PAGE_CSS: &str = include_str!("page.css");
 const SORT_JS: &str = include_str!("sort.js");
 
-/// Colours by name, for light and for dark surroundings. `c0` to `c5` are told apart by colour-blind eyes: after
+/// Colours by name, for light and for dark surroundings. `c0` to `c5` are distinct to colour-blind eyes: after
 /// \[OkabeIto2008\], with the lightness that each ground needs.
 const COLOURS: [(&str, &str, &str); 11] = [
     ("--paper", "#ffffff", "#15171a"),
@@ -30,7 +30,7 @@ const COLOURS: [(&str, &str, &str); 11] = [
     ("--c5", "#997000", "#eac435"),
 ];
 
-/// The page.
+/// The whole page as HTML: advice, plots, tables, studies, other programs, and how it was made.
 pub(super) fn html(contents: &Contents) -> String {
     let mut body = head(contents);
     for (look, _) in &contents.looks {
@@ -57,7 +57,7 @@ pub(super) fn html(contents: &Contents) -> String {
         );
     }
     studies(&mut body, contents);
-    outside(&mut body, contents);
+    other_programs(&mut body, contents);
     made(&mut body, contents);
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
@@ -142,7 +142,7 @@ fn studies(body: &mut String, contents: &Contents) {
     body.push_str(&table::growth("Megapixels a second", "threads", &growth.threads));
 }
 
-fn outside(body: &mut String, contents: &Contents) {
+fn other_programs(body: &mut String, contents: &Contents) {
     if contents.elsewhere.peers.is_empty() {
         return;
     }

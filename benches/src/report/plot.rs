@@ -38,7 +38,7 @@ pub(super) enum Line {
 /// A point of a series.
 pub(super) struct Point {
     pub(super) at: (f64, f64),
-    /// Written beside it.
+    /// Text that is written beside the point.
     pub(super) label: Option<String>,
     /// Told when the pointer rests on it.
     pub(super) hint: String,
@@ -58,7 +58,7 @@ impl Point {
     }
 }
 
-/// Points of one kind.
+/// Points that share a name, a colour and a marker.
 pub(super) struct Series {
     pub(super) name: String,
     pub(super) look: Look,
@@ -73,7 +73,7 @@ pub(super) enum Guide {
     Horizontal(f64, String),
 }
 
-/// Points over two axes.
+/// A chart: series of points over two axes.
 pub(super) struct Chart {
     pub(super) title: String,
     pub(super) x: Axis,

@@ -1,6 +1,6 @@
 use serde::Serialize;
 
-/// How much is measured.
+/// How many forms, colours and rounds are measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Scope {

@@ -55,7 +55,7 @@ pub(super) fn copying(frame: &Frame) -> Pass<'_> {
     })
 }
 
-/// Times of every pass on the threads of `pool`, in the order given; `after_round` is told of each.
+/// Times of every pass on the threads of `pool`, in the order given; `after_round` is called after each round.
 pub(super) fn interleaved(
     passes: &[Pass],
     frame: &Frame,

@@ -8,7 +8,7 @@ use crate::error::Result;
 /// How the colours of a strand follow each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Order {
-    /// Not at all.
+    /// The colours are no neighbours.
     Loose,
     /// Each is the neighbour of the next.
     Line,
@@ -25,7 +25,7 @@ pub(super) struct Strand {
     pub(super) colours: Vec<[f32; 3]>,
 }
 
-/// A hard case.
+/// Hard inputs of one kind, by name.
 #[derive(Debug, Clone)]
 pub(super) struct Case {
     pub(super) name: &'static str,
@@ -106,7 +106,7 @@ pub(super) fn general(space: WorkingSpace) -> Result<Vec<Case>> {
     ])
 }
 
-/// Every three of these.
+/// Every colour whose channels are three of these values.
 fn triples(values: &[f32]) -> impl Iterator<Item = [f32; 3]> {
     let n = values.len();
     (0..n.pow(3)).map(move |i| [values[i % n], values[i / n % n], values[i / n / n]])

@@ -19,7 +19,7 @@ mod without {
             None
         }
 
-        /// The card's name.
+        /// A text that says so.
         pub fn name(&self) -> &'static str {
             "no card"
         }
@@ -64,7 +64,7 @@ mod with {
             Some(Self { device, queue, name: adapter.get_info().name })
         }
 
-        /// The adapter's own name.
+        /// The name by which the adapter calls itself.
         pub fn name(&self) -> &str {
             &self.name
         }

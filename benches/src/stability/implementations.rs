@@ -7,7 +7,7 @@ use super::gpu::Card;
 use crate::error::Result;
 use crate::form::Form;
 
-/// What computes.
+/// What computes a form: one pixel at a time in one of two precisions, vectors, or a card.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// One pixel at a time in float64.

@@ -15,14 +15,14 @@ use crate::form::Form;
 use crate::look::PLAIN_SIZE;
 use crate::plain_table::{PlainShaper, PlainTable};
 
-/// What can go wrong.
+/// What is measured of a case, and can go wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Quantity {
     /// Colours with a number that is not finite.
     NotFinite,
     /// From a grey to the next brighter one, luminance 1 at white.
     Fall,
-    /// Between neighbours, dE.
+    /// Difference between neighbouring colours, dE.
     Step,
     /// The same less the film's own at this place.
     Excess,
@@ -32,9 +32,9 @@ pub enum Quantity {
     Vectors,
     /// The same in pictures of 8 bits, codes.
     Codes,
-    /// From the film, dE.
+    /// Difference from the film, dE.
     Film,
-    /// Between two forms, dE.
+    /// Difference between two forms, dE.
     Forms,
 }
 
@@ -137,7 +137,7 @@ pub fn rows(process: &Process, card: Option<&Card>, progress: impl Fn()) -> Resu
     Ok(rows)
 }
 
-/// How often [`rows`] reports.
+/// How often [`rows`] calls its `progress`.
 pub const STEPS: usize = 2 + FORMS;
 
 /// The forms as they usually are.

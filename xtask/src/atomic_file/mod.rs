@@ -1,4 +1,4 @@
-//! Whole files or none: what a run writes is complete under its name, or is not there.
+//! Atomic files: what a run writes is complete under its name, or is not there.
 
 mod interrupt;
 mod temporary;
@@ -60,7 +60,7 @@ impl WholeSet {
         Self { folder: folder.to_owned(), files: Vec::new() }
     }
 
-    /// Adds a file.
+    /// Adds a file of the folder, with its contents.
     pub(crate) fn add(&mut self, name: &str, contents: Vec<u8>) {
         self.files.push((name.to_owned(), contents));
     }

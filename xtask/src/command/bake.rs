@@ -198,7 +198,7 @@ fn formats(arguments: &Arguments, form: Form) -> Result<Vec<Format>> {
     }
 }
 
-/// What was measured: certificates of their numbers as written, and the deviation on the user's own pictures.
+/// Certificates of the files' numbers as written, and the deviation on the user's own pictures.
 struct Measured {
     /// By format, in the order asked for.
     files: Vec<(Format, Certificate)>,

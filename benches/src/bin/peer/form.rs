@@ -40,7 +40,7 @@ impl BakeMethod {
         }
     }
 
-    /// A plain table.
+    /// Bakes a plain table of `size` nodes a side.
     pub(crate) fn bake(&self, film: &Reference, size: usize) -> Result<Lut3d, Box<dyn Error>> {
         let shaper = shaper()?;
         let at = |coordinates: [f64; 3]| coordinates.map(|t| shaper.decode(t));

@@ -31,7 +31,7 @@ pub(crate) struct Session {
 }
 
 impl Session {
-    /// One command.
+    /// Does one command of the table in `main.rs`; its numbers, or why it failed.
     pub(crate) fn obey(&mut self, words: &[&str]) -> Answer {
         match *words {
             ["make", folder, width, height] => make(Path::new(folder), [width.parse()?, height.parse()?]),

@@ -25,7 +25,7 @@ pub(super) struct Frame {
     pub(super) name: String,
     pub(super) width: usize,
     pub(super) height: usize,
-    /// Its different colours.
+    /// Its different colours, scene-linear sRGB, each once.
     pub(super) colours: Vec<[f32; 3]>,
     /// Which of them each pixel has, row by row.
     pub(super) pixels: Vec<u32>,
@@ -50,7 +50,7 @@ impl Frame {
     }
 }
 
-/// The fixture scene.
+/// The fixture scene at the width of a tile.
 pub(super) fn scene() -> Result<Frame> {
     let rgb = onelight_fixtures::scene_rgb((WIDTH, SCENE_HEIGHT))?;
     Ok(Frame::new("scene".to_owned(), (WIDTH, SCENE_HEIGHT), &rgb))

@@ -33,12 +33,12 @@ pub(super) struct Settings {
     pub(super) limits: Limits,
 }
 
-/// What is written.
+/// The kind of picture that is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Target {
     /// The display window, display-coded.
     Png(PngBits),
-    /// The data window, linear.
+    /// The data window, display-linear, 32-bit floats.
     Exr,
 }
 
@@ -54,7 +54,7 @@ pub(super) struct Developed {
     pub(super) busy: Busy,
 }
 
-/// One picture to develop.
+/// One picture to develop, and where it goes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Order<'a> {
     pub(super) input: &'a Path,

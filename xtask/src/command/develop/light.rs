@@ -16,7 +16,7 @@ use crate::scene_colours;
 pub(crate) enum InputPrimaries {
     /// The file's, and the look's where it says nothing.
     OfFile,
-    /// The look's.
+    /// Those of the look, whatever the file says.
     OfLook,
 }
 

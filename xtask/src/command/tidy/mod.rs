@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn faults_of_every_kind_are_told_with_their_files() {
+    fn faults_of_every_kind_name_their_files() {
         let film = [
             ("crates/film/Cargo.toml", "[dependencies]\nonelight-printing = {}"),
             ("crates/film/src/lib.rs", "mod curve;\nmod dye;\nuse std::fs;"),
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn a_member_without_a_layer_is_told() {
+    fn a_member_without_a_layer_is_a_fault() {
         let top = workspace(&[("crates/film/Cargo.toml", ""), ("crates/film/src/lib.rs", "")]);
         fs::write(top.path().join("Cargo.toml"), "[workspace]\nmembers = [\"crates/other\"]").unwrap();
         let faults = check(top.path()).unwrap().faults;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-/// Longest file, in lines.
+/// Most lines of a file.
 const MAX_FILE_LINES: usize = 500;
 /// The runner without its tests, in lines: it reads flags, names files and shows progress; the rest belongs to libraries.
 const MAX_RUNNER_LINES: usize = 7_500;
@@ -11,10 +11,10 @@ const SMALLEST_SHARE: usize = 5;
 /// Names that say nothing about what is in a module.
 const EMPTY_NAMES: [&str; 5] = ["util", "core", "common", "math", "helpers"];
 
-/// The runner's folder.
+/// The folder of the runner's package.
 pub(super) const RUNNER: &str = "xtask";
 
-/// Lines of one package.
+/// Lines of Rust in one package.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Lines {
     pub(super) folder: String,
@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn a_package_of_more_than_a_fifth_is_told() {
+    fn a_package_of_more_than_a_fifth_is_a_fault() {
         let mut all: Vec<Lines> = ["a", "b", "c", "d", "e"].iter().map(|name| lines(name, 100, 50)).collect();
         assert_eq!(packages(&all), Vec::<String>::new());
         all[3].all = 101;
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn long_files_and_empty_names_are_told() {
+    fn long_files_and_empty_names_are_faults() {
         assert_eq!(file("src/a.rs", &"\n".repeat(MAX_FILE_LINES)), Vec::<String>::new());
         assert_eq!(file("src/a.rs", &"\n".repeat(MAX_FILE_LINES + 1)).len(), 1);
         for name in ["src/util.rs", "src/math/mod.rs", "crates/core/src/a.rs"] {

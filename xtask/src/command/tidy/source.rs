@@ -35,7 +35,7 @@ pub(super) struct Module {
 }
 
 impl Module {
-    /// Reads a file.
+    /// Parses the text of a Rust file.
     ///
     /// # Errors
     /// Where it is not Rust.

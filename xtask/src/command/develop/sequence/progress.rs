@@ -97,7 +97,7 @@ impl Display {
         Self { bar, last_line: Instant::now() }
     }
 
-    /// After each frame.
+    /// Shows the job after a frame has come to its end.
     pub(super) fn show(&mut self, progress: &JobProgress, outcome: &Outcome) {
         if let Outcome::Failed(why) = outcome {
             self.line(&format!("failed: {why}"));

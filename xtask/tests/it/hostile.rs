@@ -1,17 +1,16 @@
 //! Files that claim more than they hold: refused in a sentence before memory is taken.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
-#![cfg(target_os = "linux")]
-
 use std::io::{Cursor, Write as _};
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 use std::{fs, str, thread, time};
 
 use exr::prelude::{
     Blocks, Compression, Encoding, Image, ImageAttributes, Layer, LayerAttributes, LineOrder, SpecificChannels, Vec2,
     WritableImage, f16,
 };
+
+use crate::program::{fixtures, peak_kib, program};
 
 /// What a run may hold that refuses its input: the program, its threads, a band. In KiB.
 const SMALL: u64 = 150_000;
@@ -24,15 +23,12 @@ struct Ended {
 }
 
 fn develop(folder: &Path, input: &str) -> Ended {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
+    let mut command = program();
     command.args(["develop", input, "out.png", "--look", "look.toml"]).current_dir(folder);
     let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
     let mut peak = 0;
     while child.try_wait().unwrap().is_none() {
-        let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
-        let held = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-        let held = held.and_then(|line| line.trim().trim_end_matches(" kB").parse().ok());
-        peak = peak.max(held.unwrap_or(0));
+        peak = peak.max(peak_kib(&child));
         thread::sleep(time::Duration::from_micros(300));
     }
     let output = child.wait_with_output().unwrap();
@@ -46,7 +42,7 @@ fn folder(look: &str) -> tempfile::TempDir {
 }
 
 fn corpus(name: &str) -> Vec<u8> {
-    fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures/corpus").join(name)).unwrap()
+    fs::read(fixtures().join("corpus").join(name)).unwrap()
 }
 
 /// The bytes after `head` overwritten.

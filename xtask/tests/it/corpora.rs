@@ -1,19 +1,18 @@
 //! The fuzz targets over their corpora: what `fuzz/` does with random bytes, on files that say something.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
-
-use std::path::Path;
 use std::{fs, panic};
 
 use fuzz::{Met, OneIn};
 
-#[path = "../../fuzz/src/lib.rs"]
+use crate::program::fixtures;
+
+#[path = "../../../fuzz/src/lib.rs"]
 #[allow(dead_code, unreachable_pub, reason = "a library where libFuzzer uses it")]
 mod fuzz;
 
 /// Runs a target over its corpus; what is not called `refused-` or `found-` must be read.
 fn over(target: &str, check: impl Fn(&[u8]) -> Met + panic::RefUnwindSafe) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures/corpus").join(target);
+    let folder = fixtures().join("corpus").join(target);
     let mut faults = Vec::new();
     let mut met = 0;
     for entry in fs::read_dir(&folder).unwrap() {

@@ -1,13 +1,12 @@
 //! The report: one page that needs nothing else, with every form on it, and all numbers beside it.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
-
 use std::collections::HashSet;
 use std::fs;
-use std::process::Command;
 
 use quick_xml::Reader;
 use quick_xml::events::Event;
+
+use crate::program::program;
 
 const GPU: &str = r#"[{"form": "structured", "name": "kodak-5207_kodak-2383", "size": 32, "ns_per_pixel": 0.05,
     "mean": 0.01, "max": 0.3, "card": "A <card>", "date": "2026-01-01"}]"#;
@@ -23,7 +22,7 @@ fn a_quick_report_is_whole_and_holds_every_form() {
     fs::write(folder.path().join("Cargo.toml"), "[workspace]\n").unwrap();
     fs::write(folder.path().join("target/onelight/gpu.json"), GPU).unwrap();
     fs::write(folder.path().join("target/onelight/peers.json"), PEERS).unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_xtask"))
+    let output = program()
         .args(["report", "--quick", "--json"])
         .current_dir(folder.path())
         .env_remove("CARGO_MANIFEST_DIR")

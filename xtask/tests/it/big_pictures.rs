@@ -1,7 +1,5 @@
 //! Pictures of many bands as a user meets them: memory that stays flat, runs that are broken off, damage half way.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
-
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::{fs, str, thread, time};
@@ -10,6 +8,10 @@ use exr::prelude::{
     Compression, Encoding, Image, ImageAttributes, Layer, LayerAttributes, SpecificChannels, Vec2, WritableImage,
 };
 use half::f16;
+
+#[cfg(target_os = "linux")]
+use crate::program::peak_kib;
+use crate::program::{names, program};
 
 /// Writes an EXR of half-float grey.
 fn write(path: &Path, size: [usize; 2], compression: Compression, grey: impl Fn(usize, usize) -> f32 + Sync) {
@@ -24,7 +26,7 @@ fn write(path: &Path, size: [usize; 2], compression: Compression, grey: impl Fn(
 }
 
 fn develop(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
+    let mut command = program();
     command.arg("develop").args(arguments).current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped());
     command
 }
@@ -33,13 +35,6 @@ fn done(mut command: Command) -> Output {
     let output = command.output().unwrap();
     assert!(output.status.success(), "{}", str::from_utf8(&output.stderr).unwrap());
     output
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    let mut names: Vec<String> =
-        fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
-    names.sort();
-    names
 }
 
 /// Width and height of a picture that is 288 MB as `f32` RGB.
@@ -57,12 +52,7 @@ fn with_big_picture() -> tempfile::TempDir {
 fn peak(child: &mut Child) -> u64 {
     let mut peak = 0;
     while child.try_wait().unwrap().is_none() {
-        let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
-        let held = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).and_then(|line| {
-            let number = line.trim().trim_end_matches(" kB");
-            number.parse().ok()
-        });
-        peak = peak.max(held.unwrap_or(0));
+        peak = peak.max(peak_kib(child));
         thread::sleep(time::Duration::from_millis(3));
     }
     peak

@@ -1,13 +1,13 @@
 //! Four hundred damaged pictures through the real `develop`: each ends with a whole picture, or with one sentence and nothing.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
-
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Child, Output, Stdio};
 use std::time::{Duration, Instant};
 use std::{fs, str, thread};
 
 use onelight_picture::{Limits, Picture};
+
+use crate::program::{fixtures, program};
 
 /// How many files are made.
 const FILES: usize = 400;
@@ -27,7 +27,7 @@ impl Random {
 
 /// The corpora of pictures, by name; `found-` are those that once did harm.
 fn corpora() -> Vec<(String, Vec<u8>)> {
-    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures/corpus");
+    let top = fixtures().join("corpus");
     let mut files: Vec<PathBuf> = ["exr", "tiff", "png"]
         .iter()
         .flat_map(|target| fs::read_dir(top.join(target)).unwrap().map(|entry| entry.unwrap().path()))
@@ -71,7 +71,7 @@ fn damaged(good: &[u8], other: &[u8], random: &mut Random) -> Vec<u8> {
 fn developing(folder: &Path, input: &str, output: &str) -> Child {
     // No film: what is tried here is reading.
     let arguments = ["develop", input, output, "--look", "look.toml"];
-    let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
+    let mut command = program();
     command.args(arguments).current_dir(folder).env("RAYON_NUM_THREADS", "2");
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
 }
@@ -144,7 +144,7 @@ fn damaged_pictures_end_in_a_picture_or_a_sentence() {
             .collect();
         workers.into_iter().map(|worker| worker.join().unwrap()).sum()
     });
-    // Both ways were gone.
+    // Some were read and most refused.
     assert!(read > FILES / 20 && read < FILES / 2, "{read} of {FILES} were read");
     let left: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(left.len(), 1 + files.len() + read, "{left:?}");

@@ -1,7 +1,5 @@
 //! Jobs of many pictures: stopped, killed, shared out, run again, with bad frames among them.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
-
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
@@ -10,6 +8,8 @@ use std::{fs, str, thread, time};
 use exr::prelude::{SpecificChannels, WritableImage};
 use half::f16;
 use serde_json::Value;
+
+use crate::program::program;
 
 /// Writes frame `number`, of grey that no other frame has.
 fn write_frame(folder: &Path, number: usize, [width, height]: [usize; 2]) {
@@ -31,7 +31,7 @@ fn with_frames(count: usize, size: [usize; 2]) -> tempfile::TempDir {
 
 /// The whole job, with more options.
 fn job(folder: &Path, output: &str, more: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
+    let mut command = program();
     command.args(["develop", "in/shot.####.exr", output]).args(more);
     command.current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped());
     command
@@ -190,13 +190,7 @@ fn what_has_changed_is_developed_again() {
             assert_eq!(run(&["--frames", "1"]), [1, 0, 0], "{cut} bytes cut off");
         }
         fs::copy(out(1), out(2)).unwrap();
-        let single = Command::new(env!("CARGO_BIN_EXE_xtask"))
-            .arg("develop")
-            .arg("in/shot.0003.exr")
-            .arg(out(3))
-            .current_dir(folder)
-            .output()
-            .unwrap();
+        let single = program().arg("develop").arg("in/shot.0003.exr").arg(out(3)).current_dir(folder).output().unwrap();
         assert!(single.status.success());
         fs::remove_file(out(4)).unwrap();
         assert_eq!(run(&[]), [3, 1, 0]);
@@ -274,10 +268,10 @@ fn a_shot_is_exposed_as_one_and_stills_each_by_itself() {
     let output = job(folder, "out/shot.####.png", &["--ev", "auto"]).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     assert!(sentence(&output).contains("the shot flickers, expected stops"), "{}", sentence(&output));
-    let mut stills = Command::new(env!("CARGO_BIN_EXE_xtask"));
+    let mut stills = program();
     stills.args(["develop", "in/*.exr", "out/*.film.png", "--ev", "auto", "--json"]).current_dir(folder);
     assert_eq!(counts(&stills.output().unwrap()), [3, 0, 0]);
-    let mut unquoted = Command::new(env!("CARGO_BIN_EXE_xtask"));
+    let mut unquoted = program();
     unquoted.args(["develop", "in/shot.0001.exr", "in/shot.0002.exr", "out"]).current_dir(folder);
     assert!(sentence(&unquoted.output().unwrap()).contains("quote a pattern"));
 }
