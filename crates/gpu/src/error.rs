@@ -202,7 +202,7 @@ impl Refused {
             Self::SourceAndTarget => "views of the textures to read and to write",
             Self::Target => "view of the texture to write",
             Self::Texture => "texture on the GPU",
-            Self::ReadBack => "texture to read back",
+            Self::ReadBack => "texture or buffer to read back",
         }
     }
 
@@ -214,7 +214,9 @@ impl Refused {
             }
             Self::Target => "a two-dimensional view of one layer in the pass's format, of the same device",
             Self::Texture => "a size, format and usage that the device has",
-            Self::ReadBack => "a texture of a plain colour format, one sample a pixel, with COPY_SRC among its usages",
+            Self::ReadBack => {
+                "a texture of plain colour, one sample a pixel, with the usage COPY_SRC, or an unmapped buffer with MAP_READ"
+            }
         }
     }
 }

@@ -5,7 +5,7 @@ use std::task::{Context, Poll, Wake, Waker};
 use std::thread::{self, Thread};
 
 use wgpu::{
-    Adapter, BufferDescriptor, BufferUsages, Device, DeviceDescriptor, Extent3d, Features, Instance,
+    Adapter, Buffer, BufferDescriptor, BufferUsages, Device, DeviceDescriptor, Extent3d, Features, Instance,
     InstanceDescriptor, Limits, MapMode, PollType, PowerPreference, Queue, RequestAdapterOptions, TexelCopyBufferInfo,
     TexelCopyBufferLayout, Texture, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages,
 };
@@ -166,8 +166,12 @@ impl Headless {
     /// If the texture has no `COPY_SRC` among its usages, several samples a pixel, a format other than plain colour, or more bytes
     /// than a buffer of the device holds; or if the device was lost.
     pub fn read_back(&self, texture: &Texture) -> Result<Vec<u8>, Error> {
-        let failed = |found: String| Error::from(ErrorKind::Refused { what: Refused::ReadBack, found });
-        let rows = Rows::of(texture).ok_or_else(|| failed(format!("its format is {:?}", texture.format())))?;
+        let rows = Rows::of(texture).ok_or_else(|| {
+            Error::from(ErrorKind::Refused {
+                what: Refused::ReadBack,
+                found: format!("its format is {:?}", texture.format()),
+            })
+        })?;
         let padded = rows.row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let (size, max) = (u64::from(padded) * rows.count, self.device.limits().max_buffer_size);
         if size > max {
@@ -184,11 +188,23 @@ impl Headless {
             (buffer, encoder.finish())
         })?;
         self.queue.submit([commands]);
+        let bytes = self.read_buffer(&buffer)?;
+        Ok(bytes.chunks(padded as usize).filter_map(|line| line.get(..rows.row as usize)).flatten().copied().collect())
+    }
+
+    /// Waits for all that was submitted, and reads the whole of a buffer, which is unmapped before and after.
+    ///
+    /// # Errors
+    /// If the buffer has no `MAP_READ` among its usages or is mapped, or the device was lost.
+    pub fn read_buffer(&self, buffer: &Buffer) -> Result<Vec<u8>, Error> {
+        let failed = |found: String| Error::from(ErrorKind::Refused { what: Refused::ReadBack, found });
         let (sender, receiver) = mpsc::channel();
-        buffer.slice(..).map_async(MapMode::Read, move |mapped| {
-            // Nobody waits for it any more where the poll failed.
-            let _ = sender.send(mapped);
-        });
+        checked(&self.device, Refused::ReadBack, || {
+            buffer.slice(..).map_async(MapMode::Read, move |mapped| {
+                // Nobody waits for it any more where the poll failed.
+                let _ = sender.send(mapped);
+            });
+        })?;
         self.device.poll(PollType::wait_indefinitely()).map_err(|error| failed(one_line(&error)))?;
         // Another thread's poll may be the one that answers, and still be at it.
         match receiver.recv() {
@@ -196,8 +212,9 @@ impl Headless {
             Ok(Err(error)) => return Err(failed(one_line(&error))),
             Err(_) => return Err(failed("the device did not answer".to_owned())),
         }
-        let mapped = buffer.slice(..).get_mapped_range().map_err(|error| failed(one_line(&error)))?;
-        Ok(mapped.chunks(padded as usize).filter_map(|line| line.get(..rows.row as usize)).flatten().copied().collect())
+        let bytes = buffer.slice(..).get_mapped_range().map(|mapped| mapped.to_vec());
+        buffer.unmap();
+        bytes.map_err(|error| failed(one_line(&error)))
     }
 }
 

@@ -7,7 +7,10 @@ use onelight_gpu::{FilmPass, Headless};
 use wgpu::TextureFormat::{
     self, Depth32Float, R8Unorm, Rgba8Unorm, Rgba8UnormSrgb, Rgba16Float, Rgba16Uint, Rgba32Float,
 };
-use wgpu::{Extent3d, Texture, TextureDescriptor, TextureDimension, TextureUsages, TextureView, TextureViewDescriptor};
+use wgpu::{
+    BufferDescriptor, BufferUsages, Extent3d, Texture, TextureDescriptor, TextureDimension, TextureUsages, TextureView,
+    TextureViewDescriptor,
+};
 
 use crate::adapter::gpu;
 use crate::looks::{colours, looks};
@@ -224,11 +227,25 @@ fn headless_textures_are_checked() {
             gpu.upload([4, 4], Rgba8Unorm, &[0; 63]).map(drop),
             "bytes of a picture to upload: found 63, expected 64 for its size and format",
         ),
-        (gpu.read_back(&gpu.texture([4, 4], Rgba8Unorm, READ).unwrap()).map(drop), "texture to read back: found that "),
+        (
+            gpu.read_back(&gpu.texture([4, 4], Rgba8Unorm, READ).unwrap()).map(drop),
+            "texture or buffer to read back: found that ",
+        ),
     ];
     for (refused, sentence) in refusals {
         let text = refused.unwrap_err().to_string();
         assert!(text.starts_with(sentence) && !text.contains('\n'), "{text}");
+    }
+    let buffer =
+        |usage| gpu.device.create_buffer(&BufferDescriptor { label: None, size: 16, usage, mapped_at_creation: false });
+    let text = gpu.read_buffer(&buffer(BufferUsages::COPY_DST)).unwrap_err().to_string();
+    assert!(text.starts_with("texture or buffer to read back: found that ") && text.contains("MAP_READ"), "{text}");
+    // A buffer may be read again and again.
+    let read = buffer(BufferUsages::COPY_DST | BufferUsages::MAP_READ);
+    for value in [7, 8] {
+        gpu.queue.write_buffer(&read, 0, &[value; 16]);
+        gpu.queue.submit([]);
+        assert_eq!(gpu.read_buffer(&read).unwrap(), [value; 16]);
     }
     // Rows that are no multiple of 256 bytes come back without gaps.
     let bytes: Vec<u8> = (0..5 * 3 * 4).collect();
