@@ -110,12 +110,9 @@ fn what_is_no_such_file_is_refused() {
         (change("[1.0, 0.0, 0.0]", "[1.0, 0.0]"), "line 19: JSON: invalid length 2"),
         (change("[1.0, 0.0, 0.0]", "[1.0, NaN, 0.0]"), "line 19: JSON: expected value"),
         (change("[1.0, 0.0, 0.0]", "[1.0, null, 0.0]"), "line 19: JSON: invalid type: null"),
-        (change("[1.0, 0.0, 0.0]", "[1.0, 1e39, 0.0]"), "matrices: input matrix: found inf, expected a finite number"),
+        (change("[1.0, 0.0, 0.0]", "[1.0, 1e39, 0.0]"), "line 19: JSON: number out of range"),
         (change("-12.5, -13.1", "99.5, -13.1"), "curves: domain of a table: found [99.5, -13.1, -12.0] to"),
-        (
-            change("\"rate\": [0.1,", "\"rate\": [-1e300,"),
-            "exposure of the print: term of a sum of exponentials: found",
-        ),
+        (change("\"rate\": [0.1,", "\"rate\": [-1e300,"), "JSON: number out of range"),
     ] {
         assert!(sentence.contains(says), "{sentence} for {says}");
     }
