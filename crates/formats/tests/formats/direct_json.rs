@@ -165,8 +165,7 @@ fn no_cut_or_change_of_a_byte_panics() {
         for change in [b'"', b'9', b'-', 0xff] {
             bytes[at] = change;
             if let Ok(form) = direct_json::read(bytes.as_slice()) {
-                let out = form.apply([0.18; 3]);
-                assert!(out.iter().all(|v| !v.is_nan()), "{at}: {out:?}");
+                assert!(direct_json::parse(&text(&form, &[])).unwrap() == form, "{at}");
             }
         }
         bytes[at] = kept;
