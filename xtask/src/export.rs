@@ -4,13 +4,12 @@ use anyhow::{Result, anyhow, bail};
 use clap::ValueEnum;
 use onelight::Word as _;
 use onelight::baked::{Baked, BakedForm, Form};
-use onelight::lut::{
-    ClfProcess, CubeFile, Domain, Interpolation, Lut3d, PngDepth, Spi3dConfig, Storage, StripGreen, read_hald,
-    read_spi3d, read_strip, write_hald, write_ktx2, write_spi3d, write_strip,
+use onelight::lut::{Domain, Interpolation, Lut3d, Storage};
+use onelight_formats::{
+    ClfProcess, CubeFile, PngDepth, Spi3dConfig, StripGreen, direct_json, hald, ktx2, spi3d, strip,
 };
 
 use crate::atomic_file::WholeSet;
-use crate::direct_file;
 
 /// The file formats of a baked look.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -102,13 +101,13 @@ impl Export<'_> {
                 return Ok(Box::new(move |rgb| clf.apply(self.baked.coordinates_for_file(rgb))));
             }
             Format::Json => {
-                let direct = direct_file::read(bytes)?;
+                let direct = direct_json::read(bytes)?;
                 return Ok(Box::new(move |rgb| direct.apply(rgb)));
             }
-            Format::Spi3d => read_spi3d(bytes)?,
+            Format::Spi3d => spi3d::read(bytes)?,
             Format::Ktx2 => Storage::F16.stored(self.table(format)?)?,
-            Format::Strip => read_strip(bytes, StripGreen::Down)?,
-            Format::Hald => read_hald(bytes)?,
+            Format::Strip => strip::read(bytes, StripGreen::Down)?,
+            Format::Hald => hald::read(bytes)?,
         };
         let baked = self.baked.with_table(table);
         Ok(Box::new(move |rgb| baked.apply(rgb)))
@@ -138,7 +137,7 @@ impl Export<'_> {
                 files.push(("look.clf", bytes));
             }
             Format::Spi3d => {
-                write_spi3d(&mut bytes, self.table(format)?)?;
+                spi3d::write(&mut bytes, self.table(format)?)?;
                 files.push(("look.spi3d", bytes));
                 if let BakedForm::Plain(lut) = self.baked.form() {
                     let mut config = Vec::new();
@@ -151,7 +150,7 @@ impl Export<'_> {
                 }
             }
             Format::Ktx2 => {
-                write_ktx2(&mut bytes, self.table(format)?, &self.comments)?;
+                ktx2::write(&mut bytes, self.table(format)?, &self.comments)?;
                 files.push(("look.ktx2", bytes));
             }
             Format::Strip => {
@@ -159,17 +158,18 @@ impl Export<'_> {
                     [("look_strip_unreal.png", StripGreen::Down), ("look_strip_unity.png", StripGreen::Up)]
                 {
                     let mut bytes = Vec::new();
-                    write_strip(&mut bytes, self.coded(format)?, PngDepth::Sixteen, green, &self.comments)?;
+                    strip::write(&mut bytes, self.coded(format)?, PngDepth::Sixteen, green, &self.comments)?;
                     files.push((name, bytes));
                 }
             }
             Format::Hald => {
-                write_hald(&mut bytes, self.coded(format)?, PngDepth::Sixteen, &self.comments)?;
+                hald::write(&mut bytes, self.coded(format)?, PngDepth::Sixteen, &self.comments)?;
                 files.push(("look_hald.png", bytes));
             }
             Format::Json => match self.baked.form() {
                 BakedForm::Direct(direct) => {
-                    files.push(("look.direct.json", direct_file::write(direct, &self.comments)?));
+                    direct_json::write(&mut bytes, direct, &self.comments)?;
+                    files.push(("look.direct.json", bytes));
                 }
                 other => return Err(format.cannot_hold(other.kind())),
             },

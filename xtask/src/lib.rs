@@ -2,7 +2,6 @@
 
 mod atomic_file;
 mod command;
-mod direct_file;
 mod export;
 mod exposure;
 mod finish;
