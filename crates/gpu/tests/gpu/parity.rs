@@ -85,11 +85,9 @@ fn half_floats_in_are_what_they_say() {
 fn other_spaces_and_many_terms_are_too() {
     let Some(gpu) = gpu() else { return };
     // A first matrix that is not the identity, a coding with no foot, sums longer than those of fitted forms.
-    let process = Process {
-        input_space: WorkingSpace::Rec2020,
-        output_coding: TransferCurve::Gamma24,
-        ..Process::for_camera("kodak-5219").unwrap()
-    };
+    let mut process = Process::for_camera("kodak-5219").unwrap();
+    process.spaces_mut().input_space = WorkingSpace::Rec2020;
+    process.spaces_mut().output_coding = TransferCurve::Gamma24;
     let film = process.compile().unwrap();
     let settings = StructuredSettings { size: 8, entries: Entries::Sampled, ..Default::default() };
     let structured = film.structured(&settings).unwrap();
