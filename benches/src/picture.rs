@@ -4,9 +4,9 @@ use rayon::prelude::*;
 /// Width and height in pixels.
 pub type Size = [usize; 2];
 
-/// 1920 x 1080.
+/// Full HD, 1920 x 1080 pixels.
 pub const FULL_HD: Size = [1920, 1080];
-/// 3840 x 2160.
+/// Ultra HD, 3840 x 2160 pixels: 4K.
 pub const ULTRA_HD: Size = [3840, 2160];
 
 /// A picture such as a camera or a renderer gives: scene-linear RGBA, row after row, alpha 1. The same at every call.

@@ -52,13 +52,13 @@ pub fn spi3d(bytes: &[u8]) -> Met {
     }
 }
 
-/// The JSON of a direct form gives no NaN for any colour, and is the same when written and read again.
+/// The JSON of a direct form is applied to all colours, and is the same when written and read again. What it gives may be
+/// infinite or NaN: its weights may be as large as floats are.
 pub fn direct_form(bytes: &[u8]) -> Met {
     match direct_json::read(bytes) {
         Ok(form) => {
             for rgb in hard_colours() {
-                let out = form.apply(rgb);
-                assert!(!out.iter().any(|v| v.is_nan()), "{rgb:?} became {out:?}");
+                std::hint::black_box(form.apply(rgb));
             }
             written_again(
                 &form,

@@ -7,14 +7,14 @@ use std::sync::Arc;
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use onelight::{
-    Aim, DyeModel, Films, Look, Process, ProcessKeys, SheetKeys, Stock, StockKind, StockRef, TransferCurve, Word,
+    Aim, DyeModel, Films, Look, Process, ProcessKeys, SheetKeys, Stock, StockKind, StockRef, TransferCurve,
     WorkingSpace, stock,
 };
 
 use crate::own_stock::{self, OwnStock};
 use crate::switches::Switches;
+use crate::words::words;
 
 /// Longest description that is read.
 const MAX_LOOK_BYTES: u64 = 64 * 1024;
@@ -228,10 +228,4 @@ fn read(path: &Path) -> Result<ProcessKeys> {
         bail!("{name}: more than {MAX_LOOK_BYTES} bytes, expected a look.toml");
     }
     Ok(ProcessKeys::from_toml(&name, &text)?)
-}
-
-/// Takes the words of a choice, and lists them in the help.
-pub(crate) fn words<T: Word + Send + Sync>() -> impl TypedValueParser<Value = T> {
-    let words = T::ALL.iter().map(|(_, word, help)| PossibleValue::new(*word).help(*help));
-    PossibleValuesParser::new(words).try_map(|word| T::parse(&word))
 }

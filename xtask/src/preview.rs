@@ -10,7 +10,6 @@ use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Chromaticity, RgbSpace};
 
 use crate::sheet::{BACKGROUND, caption, paste};
-use crate::truth;
 
 /// Exposures shown, in stops.
 const EXPOSURES: [f32; 3] = [-2.0, 0.0, 2.0];
@@ -23,7 +22,7 @@ const DOT: (u32, u32) = (2, 2);
 
 /// The sheet as PNG: the scene clipped to the display above, the look below.
 pub(crate) fn sheet(look: &Baked) -> Result<Vec<u8>> {
-    let scene = truth::rgb((TILE.0 as usize, TILE.1 as usize))?;
+    let scene = onelight_fixtures::scene_rgb((TILE.0 as usize, TILE.1 as usize))?;
     let to_input = RgbSpace::SRGB.to_about(&look.spaces().input_space.space(), Chromaticity::black_body_6500_k())?;
     // The sheet is sRGB, whatever display the look is made for.
     let to_srgb = look.spaces().output_space.space().to_about(&RgbSpace::SRGB, Chromaticity::D65)?;
@@ -55,5 +54,5 @@ fn srgb_coded(linear: f32) -> f32 {
 }
 
 fn multiply(matrix: &Matrix3<f64>, rgb: [f32; 3]) -> [f32; 3] {
-    (matrix * Vector3::from(rgb.map(f64::from))).data.0[0].map(|v| v as f32)
+    <[f64; 3]>::from(matrix * Vector3::from(rgb.map(f64::from))).map(|v| v as f32)
 }

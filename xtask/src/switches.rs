@@ -8,7 +8,7 @@ use onelight::{
     Reconstruction, Tail, Word, Wratten,
 };
 
-use crate::look::words;
+use crate::words::words;
 
 /// What each step of the simulation can be changed to; docs/talk.md has the size of each.
 #[derive(Debug, Args)]

@@ -6,8 +6,18 @@ use crate::kernel::log2_exp2::{exp2, log2};
 /// `encode(v) = (1 + offset) v^(1 / exponent) - offset` above the point where a line through the origin touches it, and that
 /// line below: the "moncurve" of the Common LUT Format \[S2014-006\]. sRGB is (2.4, 0.055), a pure power has offset 0, and
 /// linear light is (1, 0).
+///
+/// ```
+/// use onelight_lut::{CodingStandard, PowerCoding};
+///
+/// let srgb = PowerCoding::new(2.4, 0.055)?;
+/// assert_eq!(srgb.standard(), CodingStandard::Srgb);
+/// assert!((srgb.encode(0.18) - 0.461).abs() < 1e-3);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PowerCoding {
+    standard: CodingStandard,
     exponent: f64,
     offset: f64,
     /// Slope of the line, and where it ends in linear light.
@@ -15,9 +25,24 @@ pub struct PowerCoding {
     end: f64,
 }
 
+/// Whether the hardware can do the work of a [`PowerCoding`]: a frame buffer with an sRGB format encodes linear light itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum CodingStandard {
+    /// Linear light is stored as it is: exponent 1.
+    Linear,
+    /// The curve of IEC 61966-2-1: exponent 2.4, offset 0.055.
+    Srgb,
+    /// Any other exponent and offset, such as a pure power of 2.4.
+    Other,
+}
+
+/// Exponent and offset of sRGB.
+const SRGB: (f64, f64) = (2.4, 0.055);
+
 impl PowerCoding {
     /// No coding at all.
-    pub const LINEAR: Self = Self { exponent: 1.0, offset: 0.0, slope: 1.0, end: 0.0 };
+    pub const LINEAR: Self =
+        Self { standard: CodingStandard::Linear, exponent: 1.0, offset: 0.0, slope: 1.0, end: 0.0 };
 
     /// A curve from its exponent and offset.
     ///
@@ -31,16 +56,22 @@ impl PowerCoding {
         if !(0.0..=0.9).contains(&offset) {
             return refuse("offset of a coding", offset, "a number from 0 to 0.9");
         }
-        if offset == 0.0 {
-            return Ok(Self { exponent, offset, ..Self::LINEAR });
-        }
-        if exponent == 1.0 {
-            return refuse("offset of a coding with exponent 1", offset, "0");
+        match (exponent == 1.0, offset == 0.0) {
+            (true, true) => return Ok(Self::LINEAR),
+            (true, false) => return refuse("offset of a coding with exponent 1", offset, "0"),
+            (false, true) => return Ok(Self { standard: CodingStandard::Other, exponent, offset, ..Self::LINEAR }),
+            (false, false) => (),
         }
         // The line through the origin that touches the power.
         let coded_end = offset / (exponent - 1.0);
         let end = ((coded_end + offset) / (1.0 + offset)).powf(exponent);
-        Ok(Self { exponent, offset, slope: coded_end / end, end })
+        let standard = if (exponent, offset) == SRGB { CodingStandard::Srgb } else { CodingStandard::Other };
+        Ok(Self { standard, exponent, offset, slope: coded_end / end, end })
+    }
+
+    /// Which published curve it is, decided once by [`PowerCoding::new`].
+    pub fn standard(&self) -> CodingStandard {
+        self.standard
     }
 
     /// The exponent, such as 2.4.
@@ -160,5 +191,19 @@ mod tests {
         assert!(PowerCoding::new(0.5, 0.0).is_err());
         assert!(PowerCoding::new(2.4, -0.1).is_err());
         assert!(PowerCoding::new(1.0, 0.1).is_err());
+    }
+
+    #[test]
+    fn published_curves_are_known() {
+        for (exponent, offset, expected) in [
+            (1.0, 0.0, CodingStandard::Linear),
+            (2.4, 0.055, CodingStandard::Srgb),
+            (2.4, 0.0, CodingStandard::Other),
+            (2.2, 0.055, CodingStandard::Other),
+            (2.6, 0.1, CodingStandard::Other),
+        ] {
+            assert_eq!(PowerCoding::new(exponent, offset).unwrap().standard(), expected, "{exponent} {offset}");
+        }
+        assert_eq!(PowerCoding::new(1.0, 0.0).unwrap(), PowerCoding::LINEAR);
     }
 }

@@ -52,7 +52,7 @@ pub use bake::{bake, bake_coordinates, bake_form};
 pub use certificate::{
     Band, Certificate, ColourSet, Fall, Folds, HueSteps, Law, Maps, NeutralAxis, Samples, Search, SetDeviation, certify,
 };
-pub use coding::PowerCoding;
+pub use coding::{CodingStandard, PowerCoding};
 pub use deviation::{Deviation, deviation};
 pub use domain::Domain;
 pub use error::Error;

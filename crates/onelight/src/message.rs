@@ -16,7 +16,7 @@ pub(crate) fn cut(found: &str) -> String {
 
 /// A sentence on one line and no longer than a message should be.
 pub(crate) fn one_line(sentence: &str) -> String {
-    sentence.chars().take(SENTENCE_CHARACTERS).map(|c| if c.is_control() { ' ' } else { c }).collect()
+    onelight_film::printable(sentence, SENTENCE_CHARACTERS)
 }
 
 /// The candidate that looks most like `found`, if any looks like it: by its letters, or because `found` is part of it.

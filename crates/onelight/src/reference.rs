@@ -155,7 +155,7 @@ impl Reference {
 
     /// Dye in the camera film to tristimulus values; Y of the bare lamp is 1, all three are above 0.
     pub(crate) fn xyz_of_amounts(&self, amounts: PerLayer<DyeAmount>) -> [f64; 3] {
-        self.projection.xyz(self.shown(amounts)).into()
+        self.projection.xyz(self.shown(amounts))
     }
 
     /// Dye in the film on the screen, for dye in the camera film.
@@ -184,14 +184,14 @@ impl Reference {
         });
         let shown = print.map_or(amounts, |print| print.amounts);
         let xyz = self.projection.xyz(shown);
-        let linear = self.projection.rgb_of(&xyz);
+        let linear = self.projection.rgb_of(xyz);
         Stages {
             scene,
             exposure,
             amounts,
             print,
             spectrum: self.projection.spectrum(shown),
-            xyz: xyz.into(),
+            xyz,
             linear,
             coded: linear.map(|v| self.coding().encode(v)),
         }

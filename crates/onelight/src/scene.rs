@@ -1,20 +1,10 @@
 use nalgebra::{Matrix3, Vector3};
-use onelight_lut::SceneSampler;
+pub use onelight_spectra::SCENE_MAX;
 use onelight_spectra::{Chromaticity, RgbSpace};
+pub(crate) use onelight_spectra::{MID_GREY, finite};
 
 use crate::error::{Error, Kind};
 use crate::word::WorkingSpace;
-
-/// The brightest scene value: more would overflow float32 in the exposure matrix.
-pub const SCENE_MAX: f64 = 1e30;
-
-/// Scene value of an 18 % grey card.
-pub(crate) const MID_GREY: f64 = SceneSampler::MID_GREY;
-
-/// A number that can be computed with: NaN counts as 0, all else is held to ±[`SCENE_MAX`].
-pub(crate) fn finite(v: f64) -> f64 {
-    if v.is_nan() { 0.0 } else { v.clamp(-SCENE_MAX, SCENE_MAX) }
-}
 
 /// Scene light on its way to a film: from the input's primaries to sRGB's, hard values cleaned.
 #[derive(Debug, Clone)]

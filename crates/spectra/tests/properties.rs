@@ -50,7 +50,7 @@ proptest! {
     #[test]
     fn monotone_nodes_make_a_monotone_curve_within_them((x, y) in rising_nodes(), places in prop::collection::vec(0.0..1.0, 64)) {
         let curve = Pchip::new(x, y).unwrap();
-        let (first, last) = curve.range();
+        let (first, last) = curve.range().into_inner();
         let (low, high, slack) = (curve.y()[0], curve.y()[curve.y().len() - 1], rounding(curve.y()));
         let mut places: Vec<f64> = places.into_iter().map(|t| first - 1.0 + t * (last - first + 2.0)).collect();
         places.extend(curve.x().iter().flat_map(|x| [x.next_down(), *x, x.next_up()]));
@@ -88,7 +88,8 @@ proptest! {
         let (mut xs, ys): (Vec<f64>, Vec<f64>) = nodes.into_iter().unzip();
         xs.sort_by(f64::total_cmp);
         if let Ok(curve) = Pchip::new(xs, ys) {
-            let all = [x, curve.range().0, curve.range().1, 0.5 * curve.range().0 + 0.5 * curve.range().1];
+            let (first, last) = curve.range().into_inner();
+            let all = [x, first, last, 0.5 * first + 0.5 * last];
             for x in all {
                 prop_assert!(curve.at(x).is_finite() && curve.slope_at(x).is_finite(), "{curve:?} at {x}");
             }

@@ -9,9 +9,10 @@ use onelight::lut::{Certificate, Deviation, Law, Search, Storage, deviation};
 use onelight::{DirectSettings, Entries, Look, Nodes, Process, TableCoding, TransferCurve, Word, WorkingSpace};
 use serde_json::json;
 
-use crate::look::{LookArguments, words};
+use crate::atomic_file::WholeSet;
+use crate::look::LookArguments;
 use crate::progress::{Clock, bar};
-use crate::whole::WholeSet;
+use crate::words::words;
 use crate::{Report, folders, preview, scene_colours};
 
 /// A table whose largest certified difference is above this deserves a warning, unless `--max-de` names another.
@@ -214,7 +215,7 @@ fn formats(arguments: &Arguments, form: Form) -> Result<Vec<FileFormat>> {
     Ok(formats)
 }
 
-/// What was measured: certificates of their numbers as written, and the deviation on the user's own pictures.
+/// Certificates of the files' numbers as written, and the deviation on the user's own pictures.
 struct Measured {
     /// By format, in the order asked for.
     files: Vec<(FileFormat, Certificate)>,

@@ -6,11 +6,12 @@ use onelight::baked::{Form, Recipe, ShaperChoice};
 use onelight::certify::{Certifier, MeanAndMax, in_words, to_six_stops};
 use onelight::lut::{Certificate, Law, Search, Storage};
 use onelight::{Aim, Entries, Nodes, Process, ProcessKeys, TableCoding, Word, WorkingSpace};
+use onelight_benches::buffers;
 use serde_json::{Value, json};
 
+use crate::Report;
 use crate::look::{ChosenLook, LookArguments};
 use crate::progress::{Clock, bar};
-use crate::{Report, buffers};
 
 /// Colours of a thorough certificate, and of a short one.
 const COLOURS: usize = 1 << 18;

@@ -35,7 +35,7 @@ impl PostColour {
         let brightness = within("first.brightness", controls.brightness, -1.0, 1.0)?;
         let temperature = within("first.temperature", controls.temperature, 2000.0, 20_000.0)?;
         let saturation = within("first.saturation", controls.saturation, 0.0, 4.0)?;
-        let lamp = |kelvin: Kelvin| lamp_rgb_w_per_m2(kelvin, 1.0);
+        let lamp = |kelvin: Kelvin| lamp_rgb_w_per_m2(kelvin, 1.0).map(Vector3::from);
         let gain = lamp(Kelvin::new(temperature)?)?.component_div(&lamp(Kelvin::WHITE)?);
         let gain = gain.map(|v| v.max(0.0).powf(1.0 / DISPLAY_GAMMA));
         let grey = Matrix3::from_fn(|_, k| LUMA[k]);

@@ -72,7 +72,7 @@ impl ToneCurve {
     }
 
     fn of(curve: &CharacteristicCurve, grey: LogExposure, density: impl Fn(LogExposure) -> f64) -> Self {
-        let (from, to) = curve.range();
+        let (from, to) = curve.range().into_inner();
         let (first, step) = (from.0 - grey.0, (to.0 - from.0) / (TEXELS - 1) as f64);
         let texel = |i: usize| {
             let density = density(LogExposure(from.0 + step * i as f64));

@@ -159,7 +159,7 @@ impl Printing {
 
     fn check(&self) -> Result<(), Error> {
         let separations = [Wratten::No70, Wratten::No99, Wratten::No98];
-        if self.light == PrinterLight::White && !separations.iter().all(|filter| self.filters.hold(*filter)) {
+        if self.light == PrinterLight::White && !separations.iter().all(|filter| self.filters.contains(*filter)) {
             return Err(Kind::Contradiction("light white has no separation filters: taking them out changes nothing, expected filters with 70, 99 and 98 or light separations".to_owned()).into());
         }
         Ok(())

@@ -41,7 +41,7 @@ impl Axes {
         match film.print_curves() {
             None => {
                 let amounts = camera.map(|curve| {
-                    let (least, most) = curve.amounts();
+                    let (least, most) = curve.amount_range().into_inner();
                     (least.0, most.0)
                 });
                 let value = |layer: usize, h: f64| {
@@ -140,7 +140,7 @@ impl PrintAxis {
 
 /// Values over log2 of the exposure, each layer over its own curve's range.
 pub(crate) fn over_log2(camera: PerLayer<&AmountCurve>, value: impl Fn(usize, f64) -> f64) -> Result<Lut1d, Error> {
-    let ranges = camera.map(|curve| (curve.range().0.0, curve.range().1.0)).to_array();
+    let ranges = camera.map(|curve| (curve.range().start().0, curve.range().end().0)).to_array();
     let log2 = |log10: f64| (log10 * std::f64::consts::LOG2_10) as f32;
     let domain = Domain::new(ranges.map(|r| log2(r.0)), ranges.map(|r| log2(r.1)))?;
     let point = |i: usize| {

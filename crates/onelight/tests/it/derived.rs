@@ -1,6 +1,6 @@
 //! Figures that stand in for what a sheet does not show are made again and compared with the stock files.
 
-use onelight::film::{Densitometry, DyeDensity, Origin, PerLayer};
+use onelight::film::{AimDensities, Densitometry, DyeDensity, Origin, PerLayer};
 use onelight::printing::Projection;
 use onelight::spectra::{RgbSpace, SpectralShape};
 use onelight::{Projector, StockKind, stock, stock_ids};
@@ -15,7 +15,7 @@ fn derived_aims_are_the_visual_neutral_of_density_1() {
     let mut count = 0;
     for id in stock_ids() {
         let print = stock(id).unwrap();
-        let Some((aim, Origin::Derived)) = print.aim() else { continue };
+        let Some(AimDensities { status_a: aim, origin: Origin::Derived }) = print.aim() else { continue };
         let dyes = print.dyes_on(SpectralShape::VISIBLE).unwrap();
         let projection = Projection::new(dyes.clone(), Projector::Display, &RgbSpace::SRGB).unwrap();
         let amounts = projection.neutral_amounts(1.0, id).unwrap();
@@ -45,8 +45,8 @@ fn derived_dyes_are_those_of_5219_fitted_to_the_neutral() {
         assert_eq!(film.kind(), StockKind::Negative);
         let (_, scale) = STAND_INS.into_iter().find(|(name, _)| *name == id).unwrap();
         let (neutral, d_min) = (film.neutral().unwrap(), film.d_min().unwrap());
-        let in_range = |curve: &DyeDensity, nm: f64| curve.nodes().0.contains(&nm);
-        for &nm in model.dyes().red.nodes().0 {
+        let in_range = |curve: &DyeDensity, nm: f64| curve.wavelengths_nm().contains(&nm);
+        for &nm in model.dyes().red.wavelengths_nm() {
             let scaled = model.dyes().zip_map(PerLayer::from(scale), |dye, s| dye.at(nm) * s);
             let sum: f64 = scaled.to_array().iter().sum();
             let fitted = (400.0..=700.0).contains(&nm) && in_range(neutral, nm) && in_range(d_min, nm);

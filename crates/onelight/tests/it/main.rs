@@ -31,7 +31,7 @@ pub(crate) fn chart(stops: RangeInclusive<i32>) -> Vec<[f64; 3]> {
     let basis = Basis::new(Reconstruction::Smooth).unwrap();
     let patches: Vec<[f64; 3]> = color_checker()
         .iter()
-        .map(|patch| basis.rgb_of(&basis.white().reflected_by(&patch.reflectance)).map(|v| v.max(0.0)).into())
+        .map(|patch| basis.rgb_of(&basis.white().reflected_by(&patch.reflectance)).map(|v| v.max(0.0)))
         .collect();
     stops
         .flat_map(|s| patches.iter().map(move |rgb| rgb.map(|v| v * f64::from(s).exp2())).collect::<Vec<_>>())

@@ -121,7 +121,7 @@ impl Oracle {
                 let target = match self.grey {
                     Grey::Density(d) => solve(dye, self.neutral(print, d)),
                     Grey::Sheet => {
-                        let aim = layers(print.aim().unwrap().0);
+                        let aim = layers(print.aim().unwrap().status_a);
                         std::array::from_fn(|j| layers(print.characteristic())[j].log_exposure(aim[j]).unwrap().0)
                     }
                 };
@@ -173,7 +173,7 @@ impl Oracle {
     }
 
     fn print_sensitivity(&self, layer: usize, curve: &SpectralSensitivity, nm: f64) -> f64 {
-        let at = if layer == 0 && self.held_tail { nm.min(curve.range_nm().1) } else { nm };
+        let at = if layer == 0 && self.held_tail { nm.min(*curve.range_nm().end()) } else { nm };
         10f64.powf(curve.log10_at(at, Tail::LogLinear))
     }
 

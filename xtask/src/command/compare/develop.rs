@@ -76,7 +76,7 @@ impl Distance {
     }
 }
 
-/// Colour by colour.
+/// The difference of each colour of two pictures, CIEDE2000.
 pub(super) fn differences(a: &[[f32; 3]], b: &[[f32; 3]]) -> Result<Vec<f32>> {
     let difference = DisplayDifference::new(&RgbSpace::SRGB)?;
     let between = |(a, b): (&[f32; 3], &[f32; 3])| difference.between(a.map(f64::from), b.map(f64::from)) as f32;

@@ -16,9 +16,9 @@ use onelight::ProcessKeys;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
+use crate::atomic_file::WholeSet;
 use crate::command::develop::exposure::Exposure;
 use crate::progress::{Clock, bar};
-use crate::whole::WholeSet;
 use crate::{Report, folders};
 use develop::{Darkroom, Developed, Distance, differences, on_chart};
 use frame::Frame;

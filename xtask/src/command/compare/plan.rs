@@ -16,11 +16,11 @@ pub(super) struct Shot {
     pub(super) beside: Option<usize>,
 }
 
-/// Pictures that belong together.
+/// Pictures of one comparison, side by side.
 pub(super) struct Sheet {
     pub(super) name: &'static str,
     pub(super) title: &'static str,
-    /// What to look for.
+    /// What the reader should look for.
     pub(super) text: &'static str,
     pub(super) columns: usize,
     pub(super) shots: Vec<Shot>,
@@ -66,7 +66,7 @@ pub(super) fn films() -> Result<Vec<Named>, Error> {
     films.into_iter().map(|(name, camera)| Ok((name, usual(camera)?))).collect()
 }
 
-/// Every sheet.
+/// Every comparison of the talk, and each switch.
 pub(super) fn sheets() -> Result<Vec<Sheet>, Error> {
     let films = films()?;
     let negative = ProcessKeys::default();

@@ -3,9 +3,9 @@
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
+use onelight_picture::{Band, BandSink, PictureReader};
 
-use crate::picture::{Band, BandSink, PictureReader};
-use crate::whole::NotOfThisFile;
+use crate::atomic_file::NotOfThisFile;
 
 /// How long each step was at work. Steps run beside each other, so that their sum is more than what passed.
 #[derive(Debug, Clone, Copy, Default)]
@@ -26,7 +26,8 @@ pub(super) fn pass(
 ) -> Result<Busy> {
     let mut busy = Busy::default();
     let [mut coming, mut here, mut going] = <[Band; 3]>::default();
-    let mut read = |band: &mut Band| picture.next_into(band).map_err(|error| anyhow::Error::new(NotOfThisFile(error)));
+    let mut read =
+        |band: &mut Band| picture.next_into(band).map_err(|error| anyhow::Error::new(NotOfThisFile(error.into())));
     timed(&mut busy.reading, || read(&mut here))?;
     loop {
         let last = here.rows() == 0;

@@ -5,10 +5,10 @@ use clap::ValueEnum;
 use indicatif::ProgressBar;
 use onelight::Look;
 use onelight::baked::{self, Baked, Recipe};
+use onelight_picture::Band;
 use rayon::prelude::*;
 
 use crate::look::ChosenLook;
-use crate::picture::Band;
 
 /// How the film is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -25,7 +25,7 @@ pub(crate) enum Form {
 
 /// A film, ready for any number of pictures on any number of threads.
 pub(crate) enum Film {
-    /// The film itself.
+    /// The exact film, float64.
     Exact(Box<Look>),
     /// What was baked of it.
     Baked(Box<Baked>),
@@ -61,7 +61,7 @@ impl Film {
                 progress.inc(1);
             }),
             Self::Baked(baked) => {
-                baked.map_in_place(&mut band.rgb);
+                baked.map_in_place(band.rgb_mut());
                 progress.inc(band.rows() as u64);
             }
         }

@@ -6,6 +6,9 @@ use anyhow::{Context, Result, bail};
 use indicatif::ProgressBar;
 use onelight::TransferCurve;
 use onelight::spectra::Chromaticity;
+use onelight_picture::{
+    Band, BandSink, Chromaticities, ColourTag, Description, Limits, PngBits, PngSettings, PngTransfer,
+};
 use rayon::prelude::*;
 
 use super::bands::{Busy, look_through, pass};
@@ -14,10 +17,7 @@ use super::film::Film;
 use super::light::{InputPrimaries, Light};
 use crate::exposure::SceneExposure;
 use crate::look::ChosenLook;
-use crate::picture::{
-    Band, BandSink, Bits, Chromaticities, Coding, ColourTag, Description, Limits, open, write_exr_bands,
-    write_png_bands,
-};
+use crate::picture_file::{open, write_exr_bands, write_png_bands};
 
 /// Everything that decides how a picture is developed; the same for all pictures of a run.
 pub(super) struct Settings {
@@ -33,12 +33,12 @@ pub(super) struct Settings {
     pub(super) limits: Limits,
 }
 
-/// What is written.
+/// The kind of picture that is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Target {
     /// The display window, display-coded.
-    Png(Bits),
-    /// The data window, linear.
+    Png(PngBits),
+    /// The data window, display-linear, 32-bit floats.
     Exr,
 }
 
@@ -54,7 +54,7 @@ pub(super) struct Developed {
     pub(super) busy: Busy,
 }
 
-/// One picture to develop.
+/// One picture to develop, and where it goes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Order<'a> {
     pub(super) input: &'a Path,
@@ -125,7 +125,7 @@ pub(super) fn develop_picture(settings: &Settings, order: &Order<'_>, progress: 
 
 /// Pixels with a channel over `max`.
 fn brighter(band: &Band, max: f64) -> usize {
-    let rows = band.rgb.par_chunks(band.width.max(1));
+    let rows = band.rgb().par_chunks(band.width().max(1));
     rows.map(|row| row.iter().filter(|rgb| rgb.iter().any(|v| f64::from(*v) > max)).count()).sum()
 }
 
@@ -151,12 +151,13 @@ fn write<T>(
     match target {
         Target::Exr => write_exr_bands(path, &picture, &texts, fill),
         Target::Png(bits) => {
-            let coding = match spaces.output_coding {
-                TransferCurve::Srgb => Coding::Srgb,
-                TransferCurve::Gamma24 => Coding::Gamma24,
-                TransferCurve::Linear => Coding::Linear,
+            let transfer = match spaces.output_coding {
+                TransferCurve::Srgb => PngTransfer::Srgb,
+                TransferCurve::Gamma24 => PngTransfer::Gamma24,
+                TransferCurve::Linear => PngTransfer::Linear,
             };
-            write_png_bands(path, &picture, bits, Some(&ColourTag { coding, primaries }), &texts, fill)
+            let settings = PngSettings { bits, tag: Some(ColourTag { transfer, primaries }) };
+            write_png_bands(path, &picture, settings, &texts, fill)
         }
     }
 }

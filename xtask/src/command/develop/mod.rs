@@ -3,6 +3,7 @@ pub(crate) mod exposure;
 mod film;
 mod job;
 mod light;
+mod paths;
 mod sequence;
 
 use std::fmt::Write as _;
@@ -11,18 +12,20 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use clap::Args;
 use onelight::{TransferCurve, Word};
+use onelight_picture::{Limits, PngBits};
 use serde_json::json;
 
 use self::exposure::Exposure;
 use self::film::{Film, Form};
 use self::job::{Developed, Order, Settings, Target, develop_picture};
 use self::light::InputPrimaries;
+use self::paths::same_file;
 use self::sequence::{FrameNumbers, Memory, Shard, Summary};
 use crate::exposure::ExposureArguments;
-use crate::look::{LookArguments, words};
-use crate::picture::{Bits, Limits};
+use crate::look::LookArguments;
 use crate::progress::{Clock, bar};
-use crate::{Report, folders, whole};
+use crate::words::words;
+use crate::{Report, atomic_file, folders};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -132,7 +135,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         let summary = Summary { input, output, notes, as_json: arguments.json };
         return sequence::run(&settings, plan, memory.unwrap_or_default(), clock, summary);
     }
-    whole::remove_leftovers([arguments.output.as_path()]);
+    atomic_file::remove_leftovers([arguments.output.as_path()]);
     let progress = bar("developing", 0);
     let order = Order { input: &arguments.input, output: &arguments.output, digest: None };
     let developed = clock.time("develop", || develop_picture(&settings, &order, &progress));
@@ -164,14 +167,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     Ok(Report { text, json, as_json: arguments.json })
 }
 
-fn same_file(a: &Path, b: &Path) -> bool {
-    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
-}
-
 fn target(path: &Path, bits: Option<&str>) -> Result<Target> {
     match path.extension().map(|e| e.to_string_lossy().to_lowercase()).as_deref() {
-        Some("png") if bits == Some("16") => Ok(Target::Png(Bits::Sixteen)),
-        Some("png") => Ok(Target::Png(Bits::Eight)),
+        Some("png") if bits == Some("16") => Ok(Target::Png(PngBits::Sixteen)),
+        Some("png") => Ok(Target::Png(PngBits::Eight)),
         Some("exr") => Ok(Target::Exr),
         _ => bail!("{}: the output's name ends in neither .png nor .exr, expected one of them", path.display()),
     }

@@ -7,12 +7,13 @@ use std::{fs, io};
 
 use anyhow::Result;
 use onelight::{Look, TransferCurve, Word};
+use onelight_picture::PngBits;
 use sha2::{Digest, Sha256};
 
 use super::super::job::{DIGEST_KEY, Settings, Target};
 use super::super::light::InputPrimaries;
 use crate::own_stock::hex;
-use crate::picture::{Bits, text_of_finished};
+use crate::picture_file::text_of_complete_picture;
 
 /// All that decides how the frames of a job look, but the frames.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -46,8 +47,8 @@ impl Recipe {
         line(
             "target",
             &match target {
-                Target::Png(Bits::Eight) => "PNG of 8 bits",
-                Target::Png(Bits::Sixteen) => "PNG of 16 bits",
+                Target::Png(PngBits::Eight) => "PNG of 8 bits",
+                Target::Png(PngBits::Sixteen) => "PNG of 16 bits",
                 Target::Exr => "EXR",
             },
         );
@@ -73,7 +74,7 @@ impl Recipe {
 
 /// Whether `output` is whole and was developed by this digest.
 pub(super) fn is_done(output: &Path, digest: &str) -> bool {
-    text_of_finished(output, DIGEST_KEY).is_some_and(|found| found == digest)
+    text_of_complete_picture(output, DIGEST_KEY).is_some_and(|found| found == digest)
 }
 
 /// A digest of what the film makes of some colours: another where the physics or its data have changed, though the version

@@ -18,7 +18,7 @@ pub(super) struct Pattern {
 pub(super) enum Place {
     /// The number of a frame, with zeros up to so many digits.
     Number { digits: usize },
-    /// Any letters.
+    /// A `*`: any letters, the same in both names.
     Name,
 }
 

@@ -11,23 +11,14 @@ use std::thread;
 use anyhow::Result;
 use indicatif::ProgressBar;
 
-use super::super::job::{Developed, Order, Settings, develop_picture};
-use super::super::same_file;
+use super::super::job::{Order, Settings, develop_picture};
+use super::super::paths::same_file;
 use super::budget::{Budget, needed};
 use super::digest::{Recipe, is_done};
+use super::outcome::Outcome;
 use super::plan::Frame;
-use super::tally::Tally;
-use crate::picture::open;
-
-/// What became of a frame.
-#[derive(Debug)]
-pub(super) enum Outcome {
-    Developed(Developed),
-    /// The output is there and is what would be made.
-    AlreadyDone,
-    /// Why, in one sentence that starts with a path.
-    Failed(String),
-}
+use super::progress::JobProgress;
+use crate::picture_file::open;
 
 /// Develops `frames`, as many at once as `budget` and `at_once` allow; what became of each, in their order. `done` hears
 /// of each as it is finished.
@@ -37,7 +28,7 @@ pub(super) fn develop_frames(
     frames: &[Frame],
     budget: &Budget,
     at_once: usize,
-    tally: &Arc<Tally>,
+    progress: &Arc<JobProgress>,
     mut done: impl FnMut(&Outcome),
 ) -> Vec<Outcome> {
     let next = AtomicUsize::new(0);
@@ -50,7 +41,7 @@ pub(super) fn develop_frames(
             scope.spawn(move || {
                 while let Some((index, frame)) = take(next, frames) {
                     let outcome = develop_frame(settings, recipe, frame, budget);
-                    tally.add(&outcome);
+                    progress.add(&outcome);
                     let _ = results.send((index, outcome));
                 }
             });
