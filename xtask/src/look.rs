@@ -103,13 +103,13 @@ impl ChosenLook {
 /// A film that the command line or a description names.
 enum Named {
     BuiltIn(String),
-    Own(OwnStock),
+    Own(Box<OwnStock>),
 }
 
 impl Named {
     fn of_word(word: &str) -> Result<Self> {
         if own_stock::is_folder(word) {
-            own_stock::read(Path::new(word)).map(Self::Own)
+            own_stock::read(Path::new(word)).map(|own| Self::Own(Box::new(own)))
         } else {
             Ok(Self::BuiltIn(word.to_owned()))
         }
@@ -129,7 +129,7 @@ impl Named {
                 sheet.sha256
             );
         }
-        Ok(Self::Own(own))
+        Ok(Self::Own(Box::new(own)))
     }
 
     /// The print film that goes with it in the camera; `known` stays where one is needed.

@@ -13,8 +13,8 @@ fn run() -> Result<(), Box<dyn std::error::Error>> {
         return Err(format!("{}: mean difference {mean:.3}, expected at most 0.1", baked.describe()).into());
     }
     let path = env::args_os().nth(1).map_or_else(|| env::temp_dir().join("look.cube"), PathBuf::from);
-    baked.write_cube(File::create(&path).map_err(|e| format!("{}: {e}", path.display()))?)?;
-    println!("{}\n{report}", path.display());
+    baked.with_report(&report).write_cube(File::create(&path).map_err(|e| format!("{}: {e}", path.display()))?)?;
+    print!("{}\n{report}", path.display());
     Ok(())
 }
 

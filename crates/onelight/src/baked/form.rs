@@ -33,6 +33,8 @@ use crate::word::Word as _;
 pub struct Baked {
     form: BakedForm,
     about: About,
+    /// What a certificate said of these numbers, for comments in files.
+    measured: Option<String>,
 }
 
 /// The numbers of a [`Baked`] look, by its form.
@@ -127,7 +129,7 @@ impl Baked {
                 BakedForm::Direct(Box::new(direct))
             }
         };
-        Ok(Self { form, about: look.about().clone() })
+        Ok(Self { form, about: look.about().clone(), measured: None })
     }
 
     /// Scene-linear RGB of the look's input space to display-coded RGB. NaN counts as 0, infinities as the largest number.
@@ -180,7 +182,7 @@ impl Baked {
             BakedForm::Structured(lut) => BakedForm::Structured(Box::new(lut.with_table(table))),
             BakedForm::Direct(direct) => BakedForm::Direct(direct.clone()),
         };
-        Self { form, about: self.about.clone() }
+        Self { form, about: self.about.clone(), measured: None }
     }
 
     /// The same look with its entries stored in another way; the direct form has none.
@@ -192,6 +194,12 @@ impl Baked {
             Some(table) => Ok(self.with_table(storage.stored(table)?)),
             None => Ok(self.clone()),
         }
+    }
+
+    /// The same look with what was measured of it, for the comments of its files.
+    #[must_use]
+    pub fn with_report(self, report: &Certified) -> Self {
+        Self { measured: Some(report.summary()), ..self }
     }
 
     /// The numbers, by their form.
@@ -273,7 +281,7 @@ impl Baked {
     }
 
     /// Lines for files that hold comments: the look, what goes in and out, and `measured`, such as
-    /// [`Certified::summary`](crate::certify::Certified::summary).
+    /// [`Certified::summary`]; `None` for that of [`Baked::with_report`].
     #[must_use]
     pub fn comments(&self, measured: Option<&str>) -> Vec<String> {
         let ColourSpaces { input_space, output_space, output_coding } = self.about.spaces;
@@ -286,7 +294,7 @@ impl Baked {
                 output_space.word(),
                 output_coding.word()
             ),
-            measured.unwrap_or("not certified").to_owned(),
+            measured.or(self.measured.as_deref()).unwrap_or("not certified").to_owned(),
         ]
     }
 }

@@ -73,7 +73,7 @@ impl Light {
             Some(matrix) => {
                 let matrix = matrix * scale;
                 let convert = |rgb: &mut [f32; 3]| {
-                    *rgb = <[f64; 3]>::from(matrix * Vector3::from(finite(*rgb))).map(|v| v as f32)
+                    *rgb = <[f64; 3]>::from(matrix * Vector3::from(finite(*rgb))).map(|v| v as f32);
                 };
                 self.each_row(band, meter, convert);
             }
