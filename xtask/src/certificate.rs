@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use anyhow::Result;
-use onelight::lut::{Certificate, ColourSet, Law, Maps, Samples, Search, certify};
+use onelight::lut::{Certificate, ColourSet, SamplingLaw, Maps, Samples, Search, certify};
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Basis, Chromaticity, DisplayDifference, Reconstruction, color_checker};
 use onelight::{Look, Process, WorkingSpace};
@@ -24,7 +24,7 @@ impl<'a> Measure<'a> {
     }
 
     /// Colours by a law, in the primaries of `space`, with the film's results.
-    pub(crate) fn samples(&self, law: &Law, space: WorkingSpace) -> Result<Samples> {
+    pub(crate) fn samples(&self, law: &SamplingLaw, space: WorkingSpace) -> Result<Samples> {
         let to_input = self.to_input(space)?;
         let film = |rgb| self.film.develop_linear(multiply(&to_input, rgb));
         Ok(Samples::new(law, &[checker(space)?], film, |_| {})?)

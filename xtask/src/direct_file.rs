@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result, bail};
 use onelight::lut::{
-    DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, INPUT_MAX, LOG_FLOOR, Lut1d,
+    DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, SCENE_MAX, LOG_FLOOR, Lut1d,
     PowerCoding, Rows,
 };
 use serde::{Deserialize, Serialize};
@@ -72,7 +72,7 @@ pub(crate) fn write(direct: &DirectForm, comments: &[String]) -> Result<Vec<u8>>
         ("version", Value::from(VERSION)),
         ("comments", Value::from(comments)),
         ("equations", Value::from(EQUATIONS.to_vec())),
-        ("input_max", Value::from(INPUT_MAX)),
+        ("input_max", Value::from(SCENE_MAX)),
         ("log_floor", Value::from(LOG_FLOOR)),
         ("input", serde_json::to_value(parts.input)?),
         ("exposure", serde_json::to_value(parts.exposure)?),
@@ -243,7 +243,7 @@ mod tests {
             coded.copysign(v)
         };
         for rgb in [[0.18; 3], [0.0, 0.0, 0.0], [4.0, 0.2, 0.01], [0.001, 0.0, 30.0], [-1.0, 2.0, 0.5]] {
-            let scene = multiply(&file.input, rgb).map(|v| v.clamp(0.0, f64::from(INPUT_MAX)));
+            let scene = multiply(&file.input, rgb).map(|v| v.clamp(0.0, f64::from(SCENE_MAX)));
             let dye = curve(&file.curves, multiply(&file.exposure, scene));
             let print = file.print.as_ref().unwrap();
             let dye = curve(&print.curves, sum(&print.exposure, dye));

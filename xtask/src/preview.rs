@@ -35,7 +35,7 @@ pub(crate) fn sheet(process: &Process, look: &Compiled) -> Result<Vec<u8>> {
         let exposed: Vec<[f32; 3]> = scene.iter().map(|rgb| rgb.map(|v| v * stops.exp2())).collect();
         let clipped = exposed.iter().map(|rgb| rgb.map(srgb_coded));
         let mut developed: Vec<[f32; 3]> = exposed.iter().map(|rgb| multiply(&to_input, *rgb)).collect();
-        look.apply_to_slice(&mut developed);
+        look.map_colours(&mut developed);
         for rgb in &mut developed {
             let linear = rgb.map(|v| process.output_coding.decode(f64::from(v)) as f32);
             *rgb = multiply(&to_srgb, linear).map(srgb_coded);

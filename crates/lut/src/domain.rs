@@ -1,4 +1,5 @@
 use crate::error::{Error, Kind};
+use crate::number::Number;
 
 /// The box of inputs that a table covers: per channel, the input of its first and of its last entry.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,8 +51,12 @@ impl Domain {
     }
 
     /// Moves the domain onto `[0, 1]`; inputs outside it end up outside.
-    pub(crate) fn normalise(&self, rgb: [f32; 3]) -> [f32; 3] {
-        std::array::from_fn(|c| (rgb[c] - self.min[c]) / (self.max[c] - self.min[c]))
+    #[inline]
+    pub(crate) fn normalise<N: Number>(&self, rgb: [N; 3]) -> [N; 3] {
+        std::array::from_fn(|c| {
+            let (min, max) = (N::of(self.min[c]), N::of(self.max[c]));
+            (rgb[c] - min) / (max - min)
+        })
     }
 }
 

@@ -9,20 +9,17 @@ pub(crate) mod cells;
 pub(crate) mod coding;
 pub(crate) mod curves;
 pub(crate) mod expose;
-pub(crate) mod log2_exp2;
+mod log2_exp2;
 pub(crate) mod lookup;
-pub(crate) mod matrix;
-mod padded;
+mod matrix;
 pub(crate) mod sum;
 mod wide;
 
-pub(crate) use block::{BLOCK, Block, BlockMap, Plane};
-pub(crate) use fearless_simd::Level;
-pub(crate) use padded::Padded;
-
 /// All levels that this machine can run.
 #[cfg(test)]
-pub(crate) fn levels() -> Vec<Level> {
+pub(crate) fn levels() -> Vec<fearless_simd::Level> {
+    use fearless_simd::Level;
+
     let mut levels = vec![Level::fallback(), Level::new()];
     #[cfg(target_arch = "x86_64")]
     {

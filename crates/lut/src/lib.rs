@@ -47,30 +47,37 @@ mod coding;
 mod deviation;
 mod domain;
 mod error;
+mod exponential_sum;
 mod fit;
 mod form;
 mod format;
 mod interpolate;
 mod kernel;
+mod log2_exp2;
 mod lut1d;
 mod lut3d;
+mod number;
+mod padded;
 mod pixels;
+mod scene_light;
 mod scene_sampler;
 mod shaper;
 mod storage;
 
 pub use bake::{bake, bake_coordinates, bake_form};
 pub use certificate::{
-    Band, Certificate, ColourSet, Fall, Folds, HueSteps, Law, Maps, NeutralAxis, Samples, Search, SetDeviation, certify,
+    Band, Certificate, ColourSet, Fall, Folds, HueSteps, Maps, NeutralAxis, Samples, SamplingLaw, Search, SetDeviation,
+    certify,
 };
 pub use coding::PowerCoding;
 pub use deviation::{Deviation, deviation};
 pub use domain::Domain;
 pub use error::Error;
 pub use fit::{FitSample, FitSettings, fit};
-pub use form::direct::{DirectForm, DirectParts, DirectPrint, ExponentialSum, ExponentialTerm};
+pub use exponential_sum::{ExponentialSum, ExponentialTerm};
+pub use form::direct::{DirectForm, DirectParts, DirectPrint};
 pub use form::plain::PlainLut;
-pub use form::structured::{Decode, INPUT_MAX, LOG_FLOOR, Mix, Rows, StructuredLut, StructuredParts};
+pub use form::structured::{Decode, Mix, StructuredLut, StructuredParts};
 pub use format::clf::ClfProcess;
 pub use format::cube::CubeFile;
 pub use format::hald::{read_hald, write_hald};
@@ -81,7 +88,8 @@ pub use format::strip::{StripGreen, read_strip, write_strip};
 pub use interpolate::Interpolation;
 pub use lut1d::Lut1d;
 pub use lut3d::Lut3d;
-pub use pixels::{Channels, PixelMap, Pixels, PixelsMut, Sample, Vectors};
+pub use pixels::{Channels, PixelMap, Pixels, PixelsMut, Sample, SimdLevel};
+pub use scene_light::{IDENTITY, LOG_FLOOR, Rows, SCENE_MAX, finite};
 pub use scene_sampler::SceneSampler;
 pub use shaper::{Shaper, ShaperKind, texel_centre};
 pub use storage::Storage;

@@ -1,7 +1,8 @@
 use crate::domain::Domain;
 use crate::error::{Error, Kind};
 use crate::interpolate::cell;
-use crate::lut3d::is_entry;
+use crate::interpolate::is_entry;
+use crate::number::Number;
 
 /// Three curves, one per channel, as numbers at equal steps over a [`Domain`], read linearly between them.
 ///
@@ -67,11 +68,19 @@ impl Lut1d {
     }
 
     /// Reads each channel's curve at that channel's input.
+    #[inline]
     pub fn apply(&self, rgb: [f32; 3]) -> [f32; 3] {
+        self.apply_in(rgb)
+    }
+
+    /// [`Lut1d::apply`] in either type.
+    #[inline]
+    pub(crate) fn apply_in<N: Number>(&self, rgb: [N; 3]) -> [N; 3] {
         let coordinates = self.domain.normalise(rgb);
         std::array::from_fn(|channel| {
             let (index, t) = cell(coordinates[channel], self.entries.len());
-            self.entries[index][channel] * (1.0 - t) + self.entries[index + 1][channel] * t
+            let [low, high] = [index, index + 1].map(|i| N::of(self.entries[i][channel]));
+            low * (N::ONE - t) + high * t
         })
     }
 }

@@ -49,14 +49,14 @@ impl Storage {
             Self::Unorm10 => Box::new(codes(1023.0)),
             Self::Unorm8 => Box::new(codes(255.0)),
         };
-        Lut3d::new(table.size(), table.entries().iter().map(|entry| entry.map(&round)).collect())
+        Lut3d::new(table.size(), table.entries().map(|entry| entry.map(&round)).collect())
     }
 }
 
 /// Smallest and largest entry of all channels.
 fn range(table: &Lut3d) -> (f32, f32) {
-    let all = table.entries().iter().flatten();
-    all.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), &v| (low.min(v), high.max(v)))
+    let all = table.entries().flatten();
+    all.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
 }
 
 #[cfg(test)]
@@ -77,9 +77,8 @@ mod tests {
             let stored = storage.stored(&table).unwrap();
             let largest = stored
                 .entries()
-                .iter()
                 .flatten()
-                .zip(table.entries().iter().flatten())
+                .zip(table.entries().flatten())
                 .map(|(a, b)| (a - b).abs())
                 .fold(0.0, f32::max);
             assert!(largest <= 0.5 * step * (high - low) + 1e-6, "{storage:?}: {largest}");

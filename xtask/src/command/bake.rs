@@ -3,7 +3,7 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
-use onelight::lut::{Certificate, Deviation, Law, Search, Storage, deviation};
+use onelight::lut::{Certificate, Deviation, SamplingLaw, Search, Storage, deviation};
 use onelight::{DirectSettings, Entries, Look, Nodes, Process, TableCoding, TransferCurve, Word, WorkingSpace};
 use serde_json::json;
 
@@ -208,7 +208,7 @@ impl Measured {
     ) -> Result<Self> {
         let measure = Measure::new(film, process)?;
         let export = Export { process, compiled, comments: Vec::new() };
-        let samples = measure.samples(&Law::default(), WorkingSpace::Srgb)?;
+        let samples = measure.samples(&SamplingLaw::default(), WorkingSpace::Srgb)?;
         let mut written = Vec::new();
         for &format in formats {
             written.push(export.as_written(format)?);
@@ -221,7 +221,7 @@ impl Measured {
         // A plain table takes what is inside its own primaries only.
         let rec2020 = match compiled {
             Compiled::Structured(_) | Compiled::Direct(_) => {
-                let samples = measure.samples(&Law::default(), WorkingSpace::Rec2020)?;
+                let samples = measure.samples(&SamplingLaw::default(), WorkingSpace::Rec2020)?;
                 Some(measure.certify_in(WorkingSpace::Rec2020, &samples, first, Search::Ascent)?)
             }
             Compiled::Plain(_) | Compiled::Coded { .. } => None,

@@ -2,7 +2,7 @@ use std::fmt::Write as _;
 
 use anyhow::Result;
 use clap::Args;
-use onelight::lut::{Certificate, Law, Search, Storage};
+use onelight::lut::{Certificate, SamplingLaw, Search, Storage};
 use onelight::{Aim, Entries, Nodes, Process, TableCoding, Word, WorkingSpace};
 use serde_json::{Value, json};
 
@@ -69,7 +69,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     }
     let mut clock = Clock::default();
     let processes = processes(arguments)?;
-    let law = Law { count: arguments.colours, ..Law::default() };
+    let law = SamplingLaw { count: arguments.colours, ..SamplingLaw::default() };
     let progress = bar("certifying", (processes.len() * forms().len()) as u64);
     let mut text = format!(
         "CIEDE2000 from the exact film, {} sRGB colours from -10 to +10 stops, any saturation; max after following the worst\n\

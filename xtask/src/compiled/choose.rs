@@ -20,7 +20,7 @@ const STORED: [(TableCoding, [Storage; 2]); 2] =
 /// nodes, and its range ends.
 pub(crate) fn smallest_under(film: &Look, process: &Process, limit: f64) -> Result<Recipe> {
     let measure = Measure::new(film, process)?;
-    let samples: Samples = measure.samples(&onelight::lut::Law::default(), onelight::WorkingSpace::Srgb)?;
+    let samples: Samples = measure.samples(&onelight::lut::SamplingLaw::default(), onelight::WorkingSpace::Srgb)?;
     let progress = bar("choosing", SIZES.len() as u64);
     let mut best: Option<(usize, Recipe)> = None;
     let mut nearest = f64::INFINITY;

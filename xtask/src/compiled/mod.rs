@@ -235,11 +235,11 @@ impl Compiled {
     }
 
     /// [`Compiled::apply`] to every pixel in place, on all threads.
-    pub(crate) fn apply_to_slice(&self, pixels: &mut [[f32; 3]]) {
+    pub(crate) fn map_colours(&self, pixels: &mut [[f32; 3]]) {
         match self {
-            Self::Plain(lut) => lut.apply_to_slice(pixels),
+            Self::Plain(lut) => lut.map_colours(pixels),
             Self::Coded { .. } => pixels.par_iter_mut().for_each(|rgb| *rgb = self.apply(*rgb)),
-            Self::Structured(lut) => lut.apply_to_slice(pixels),
+            Self::Structured(lut) => lut.map_colours(pixels),
             Self::Direct(direct) => pixels.par_chunks_mut(BLOCK).for_each(|block| {
                 let width = block.len();
                 if let Ok(mut row) = PixelsMut::new(block.as_flattened_mut(), Channels::Rgb, [width, 1]) {

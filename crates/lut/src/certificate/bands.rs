@@ -1,6 +1,6 @@
 use serde::Serialize;
 
-use super::law::Law;
+use super::sampling_law::SamplingLaw;
 use crate::deviation::Deviation;
 use crate::error::Error;
 use crate::scene_sampler::SceneSampler;
@@ -17,7 +17,7 @@ pub struct Band {
 }
 
 /// The drawn colours by exposure, darkest first.
-pub(super) fn bands(law: &Law, places: &[[f64; 3]], differences: &[f64]) -> Result<Vec<Band>, Error> {
+pub(super) fn bands(law: &SamplingLaw, places: &[[f64; 3]], differences: &[f64]) -> Result<Vec<Band>, Error> {
     let [low, high] = law.stops;
     let count = (((high - low) / law.band_width).ceil() as usize).max(1);
     let mut members: Vec<(Vec<[f64; 3]>, Vec<f64>)> = vec![(Vec::new(), Vec::new()); count];

@@ -1,6 +1,6 @@
 use serde::Serialize;
 
-use super::samples::Compared;
+use super::compared::Compared;
 use crate::deviation::Deviation;
 use crate::error::{Error, Kind};
 

@@ -1,6 +1,6 @@
 use serde::Serialize;
 
-use super::samples::Compared;
+use super::compared::Compared;
 
 /// Places where a map turns space inside out: two colours of the scene swap sides there.
 ///

@@ -1,6 +1,6 @@
 use serde::Serialize;
 
-use super::samples::Compared;
+use super::compared::Compared;
 use super::scene_coordinates::SceneCoordinates;
 use crate::error::{Error, Kind};
 

@@ -1,7 +1,7 @@
 use serde::Serialize;
 
-use super::law::Law;
-use super::samples::Compared;
+use super::sampling_law::SamplingLaw;
+use super::compared::Compared;
 use super::scene_coordinates::grey;
 use crate::deviation::Deviation;
 use crate::error::{Error, Kind};
@@ -37,7 +37,7 @@ pub struct Fall {
 }
 
 /// Scene-linear greys, darkest first.
-pub(super) fn greys(law: &Law) -> impl Iterator<Item = [f64; 3]> {
+pub(super) fn greys(law: &SamplingLaw) -> impl Iterator<Item = [f64; 3]> {
     /// So that a step that divides the range reaches its end in spite of rounding.
     const SLACK: f64 = 1e-9;
     let last = ((law.stops[1] - law.stops[0]) / law.neutral_step + SLACK) as usize;
@@ -46,7 +46,7 @@ pub(super) fn greys(law: &Law) -> impl Iterator<Item = [f64; 3]> {
 }
 
 pub(super) fn measure(
-    law: &Law,
+    law: &SamplingLaw,
     greys: &Compared<'_>,
     difference: &(impl Fn(&[f64; 3], &[f64; 3]) -> f64 + Sync),
     luminance: &impl Fn(&[f64; 3]) -> f64,
@@ -66,7 +66,7 @@ pub(super) fn measure(
 }
 
 fn fall(
-    law: &Law,
+    law: &SamplingLaw,
     values: &[[f64; 3]],
     luminance: &impl Fn(&[f64; 3]) -> f64,
     what: &'static str,
@@ -85,6 +85,6 @@ fn fall(
     Ok(largest)
 }
 
-fn stops_of(law: &Law, index: usize) -> f64 {
+fn stops_of(law: &SamplingLaw, index: usize) -> f64 {
     law.stops[0] + index as f64 * law.neutral_step
 }

@@ -5,17 +5,18 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::colour_set::ColourSet;
-use super::law::{Law, Search};
+use super::compared::Compared;
+use super::sampling_law::{SamplingLaw, Search};
 use super::{colour_set, folds, hue_steps, neutral_axis};
 use crate::deviation::Deviation;
 use crate::error::Error;
 use crate::scene_sampler::SceneSampler;
 
-/// All colours of a [`Law`] with the reference's values there: made once, then held against any number of
+/// All colours of a [`SamplingLaw`] with the reference's values there: made once, then held against any number of
 /// candidates by [`certify`](crate::certify()).
 #[derive(Clone)]
 pub struct Samples {
-    law: Law,
+    law: SamplingLaw,
     sets: Vec<ColourSet>,
     /// Scene-linear; one list for all parts, so that threads share it evenly.
     places: Vec<[f64; 3]>,
@@ -34,13 +35,6 @@ struct Parts {
     stencils: Range<usize>,
 }
 
-/// Two maps on one part of the list.
-pub(super) struct Compared<'a> {
-    pub(super) places: &'a [[f64; 3]],
-    pub(super) reference: &'a [[f64; 3]],
-    pub(super) candidate: &'a [[f64; 3]],
-}
-
 impl Samples {
     /// Evaluates the reference, scene-linear RGB to display-linear RGB, at every colour of a law and of the
     /// caller's own sets, on all threads.
@@ -52,7 +46,7 @@ impl Samples {
     ///
     /// If a field of the law is out of bounds; the error names it.
     pub fn new(
-        law: &Law,
+        law: &SamplingLaw,
         sets: &[ColourSet],
         reference: impl Fn([f64; 3]) -> [f64; 3] + Sync,
         progress: impl Fn(usize) + Sync,
@@ -79,7 +73,7 @@ impl Samples {
 
     /// The law that the colours follow.
     #[must_use]
-    pub fn law(&self) -> &Law {
+    pub fn law(&self) -> &SamplingLaw {
         &self.law
     }
 
@@ -155,13 +149,6 @@ impl Samples {
 impl fmt::Debug for Samples {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Samples").field("law", &self.law).field("parts", &self.parts).finish_non_exhaustive()
-    }
-}
-
-impl Compared<'_> {
-    /// In the order of the places, whatever the threads.
-    pub(super) fn differences(&self, difference: &(impl Fn(&[f64; 3], &[f64; 3]) -> f64 + Sync)) -> Vec<f64> {
-        self.reference.par_iter().zip(self.candidate).map(|(a, b)| difference(a, b)).collect()
     }
 }
 

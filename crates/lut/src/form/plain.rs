@@ -1,9 +1,10 @@
+use fearless_simd::Level;
+
 use crate::interpolate::Interpolation;
+use crate::kernel::block::{Block, BlockMap};
 use crate::kernel::cells::Axes;
 use crate::kernel::lookup::{lookup, lookup_to};
-use crate::kernel::{Block, BlockMap, Level};
 use crate::lut3d::Lut3d;
-use crate::pixels::map_colours;
 use crate::shaper::Shaper;
 
 /// The plain form: a shaper on every channel, then one fetch from a 3D table.
@@ -45,9 +46,9 @@ impl PlainLut {
         self.table.apply(coordinates, self.interpolation)
     }
 
-    /// [`PlainLut::apply`] to every pixel in place, on all threads.
-    pub fn apply_to_slice(&self, pixels: &mut [[f32; 3]]) {
-        map_colours(self, pixels);
+    /// [`PlainLut::apply`] in float64.
+    pub(crate) fn apply_f64(&self, linear: [f64; 3]) -> [f64; 3] {
+        self.table.apply_f64(linear.map(|u| self.shaper.encode(u)), self.interpolation)
     }
 }
 
@@ -64,7 +65,7 @@ impl BlockMap for PlainLut {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{SceneSampler, bake};
+    use crate::{PixelMap, SceneSampler, bake};
     use approx::assert_abs_diff_eq;
 
     fn look(rgb: [f64; 3]) -> [f64; 3] {
@@ -112,7 +113,7 @@ mod tests {
             SceneSampler::new(-8.0..=6.0).unwrap().take(20_017).map(|rgb| rgb.map(|u| u as f32)).collect();
         pixels[5] = [f32::NAN, f32::INFINITY, -1.0];
         let want: Vec<_> = pixels.iter().map(|&rgb| lut.apply(rgb)).collect();
-        lut.apply_to_slice(&mut pixels);
+        lut.map_colours(&mut pixels);
         for (found, want) in pixels.as_flattened().iter().zip(want.as_flattened()) {
             assert_abs_diff_eq!(found, want, epsilon = 1e-5);
         }

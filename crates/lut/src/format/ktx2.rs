@@ -35,8 +35,7 @@ pub fn write_ktx2<S: AsRef<str>>(
 ) -> Result<(), Error> {
     let size = table.size();
     let too_large = |entry: &[f32; 3]| entry.iter().any(|&v| !f16::from_f32(v).is_finite());
-    if let Some(index) = table.entries().iter().position(too_large) {
-        let found = table.entries().get(index).copied().unwrap_or_default();
+    if let Some((index, found)) = table.entries().enumerate().find(|(_, entry)| too_large(entry)) {
         return Err(Kind::Half { node: node_of(index, size), found }.into());
     }
     let comments: Vec<String> = comments.into_iter().map(|text| super::text::printable(text.as_ref())).collect();
@@ -44,7 +43,7 @@ pub fn write_ktx2<S: AsRef<str>>(
     let one = f16::ONE.to_le_bytes();
     for [r, g, b] in table.entries() {
         for value in [r, g, b] {
-            file.extend(f16::from_f32(*value).to_le_bytes());
+            file.extend(f16::from_f32(value).to_le_bytes());
         }
         file.extend(one);
         if file.len() >= 1 << 16 {
@@ -148,8 +147,8 @@ mod tests {
     use ::ktx2::{Format, Reader};
 
     fn bent(size: usize) -> Lut3d {
-        let entries = Lut3d::identity(size).unwrap().entries().to_vec();
-        Lut3d::new(size, entries.into_iter().map(|[x, y, z]| [x * x - 0.2, 40.0 * y, 1e-6 + z]).collect()).unwrap()
+        let identity = Lut3d::identity(size).unwrap();
+        Lut3d::new(size, identity.entries().map(|[x, y, z]| [x * x - 0.2, 40.0 * y, 1e-6 + z]).collect()).unwrap()
     }
 
     fn file(table: &Lut3d, comments: &[&str]) -> Vec<u8> {

@@ -29,7 +29,7 @@ pub fn write_spi3d(writer: impl Write, table: &Lut3d) -> Result<(), Error> {
     for red in 0..size {
         for green in 0..size {
             for blue in 0..size {
-                if let Some([r, g, b]) = table.entries().get(red + size * (green + size * blue)) {
+                if let Some([r, g, b]) = table.entry([red, green, blue]) {
                     writeln!(out, "{red} {green} {blue} {r} {g} {b}")?;
                 }
             }

@@ -28,7 +28,7 @@ pub enum StripGreen {
 /// let table = Lut3d::identity(16)?;
 /// let mut file = Vec::new();
 /// write_strip(&mut file, &table, PngDepth::Eight, StripGreen::Down, ["for Unreal"])?;
-/// assert_eq!(read_strip(file.as_slice(), StripGreen::Down)?.entries()[1], [17.0 / 255.0, 0.0, 0.0]);
+/// assert_eq!(read_strip(file.as_slice(), StripGreen::Down)?.entry([1, 0, 0]).unwrap(), [17.0 / 255.0, 0.0, 0.0]);
 /// # Ok::<(), onelight_lut::Error>(())
 /// ```
 pub fn write_strip<S: AsRef<str>>(
@@ -42,7 +42,7 @@ pub fn write_strip<S: AsRef<str>>(
     let pixels = (0..size).flat_map(|row| (0..size * size).map(move |column| (row, column)));
     let pixels = pixels.filter_map(|(row, column)| {
         let [red, blue] = [column % size, column / size];
-        table.entries().get(red + size * (green_node(row, size, green) + size * blue)).copied()
+        table.entry([red, green_node(row, size, green), blue])
     });
     picture::write(writer, [size * size, size], depth, pixels, comments)
 }
@@ -91,7 +91,7 @@ mod tests {
                 let mut file = Vec::new();
                 write_strip(&mut file, &table, depth, green, ["a comment"]).unwrap();
                 let back = read_strip(file.as_slice(), green).unwrap();
-                assert_eq!(back.entries(), nearest_code(&table, depth));
+                assert_eq!(back.entries().collect::<Vec<_>>(), nearest_code(&table, depth));
             }
         }
     }

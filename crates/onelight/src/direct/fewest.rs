@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Vector3};
-use onelight_lut::{Certificate, DirectForm, Law, Maps, Samples, Search, certify};
+use onelight_lut::{Certificate, DirectForm, SamplingLaw, Maps, Samples, Search, certify};
 
 use super::fit::{fit, misses};
 use super::stages::Stages;
@@ -83,7 +83,7 @@ impl<'a> Measure<'a> {
     fn new(film: &'a Reference) -> Result<Self, Error> {
         let to_input = film.to_srgb().try_inverse().unwrap_or_else(Matrix3::identity);
         let exact = |rgb| film.develop_linear((to_input * Vector3::from(rgb)).data.0[0]);
-        let samples = Samples::new(&Law::default(), &[], exact, |_| {})?;
+        let samples = Samples::new(&SamplingLaw::default(), &[], exact, |_| {})?;
         Ok(Self { film, to_input, samples, luminance: film.output().to_xyz()?.row(1).transpose() })
     }
 

@@ -60,7 +60,7 @@ impl Film {
                 progress.inc(1);
             }),
             Self::Compiled(compiled) => {
-                compiled.apply_to_slice(&mut band.rgb);
+                compiled.map_colours(&mut band.rgb);
                 progress.inc(band.rows() as u64);
             }
         }

@@ -1,7 +1,7 @@
 //! Speed and error of every form of a look.
 
 use anyhow::Result;
-use onelight::lut::{Certificate, Law, Search};
+use onelight::lut::{Certificate, SamplingLaw, Search};
 use onelight::{Process, Reference, Word, WorkingSpace, stock};
 use serde::Serialize;
 
@@ -92,12 +92,12 @@ pub(super) struct Prepared {
 }
 
 /// Colours that errors are measured on.
-pub(super) fn law(scope: Scope) -> Law {
+pub(super) fn law(scope: Scope) -> SamplingLaw {
     let count = match scope {
         Scope::Full => 1 << 17,
         Scope::Quick => 1 << 10,
     };
-    Law { count, ..Law::default() }
+    SamplingLaw { count, ..SamplingLaw::default() }
 }
 
 impl Prepared {

@@ -1,7 +1,7 @@
 //! Every way in which a form can be computed.
 
 use anyhow::Result;
-use onelight::lut::{Channels, PixelMap, Pixels, PixelsMut, Vectors};
+use onelight::lut::{Channels, PixelMap, Pixels, PixelsMut, SimdLevel};
 use rayon::prelude::*;
 
 use super::gpu::Card;
@@ -65,7 +65,7 @@ fn on_processor(form: &impl PixelMap, colours: &[[f32; 3]]) -> Result<Vec<Way>> 
     ];
     let size = [colours.len(), 1];
     let from = Pixels::new(colours.as_flattened(), Channels::Rgb, size)?;
-    for vectors in Vectors::available() {
+    for vectors in SimdLevel::available() {
         let mut floats = vec![[0.0_f32; 3]; colours.len()];
         form.map_on(vectors, &from, &mut PixelsMut::new(floats.as_flattened_mut(), Channels::Rgb, size)?)?;
         let mut codes = vec![[0_u8; 3]; colours.len()];

@@ -4,13 +4,12 @@ use crate::coding::PowerCoding;
 use crate::domain::Domain;
 use crate::error::Error;
 use crate::form::plain::PlainLut;
-use crate::form::structured::{Decode, INPUT_MAX, LOG_FLOOR, Mix, Rows, StructuredLut};
+use crate::form::structured::{Decode, Mix, StructuredLut};
 use crate::interpolate::Interpolation;
 use crate::lut1d::Lut1d;
 use crate::lut3d::Lut3d;
+use crate::scene_light::{IDENTITY, LOG_FLOOR, Rows, SCENE_MAX};
 use crate::shaper::ShaperKind;
-
-const IDENTITY: Rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 impl ClfProcess {
     /// A structured LUT, whole.
@@ -20,7 +19,7 @@ impl ClfProcess {
     /// None that a [`StructuredLut`] can cause today; the tables are checked once more.
     pub fn from_structured(lut: &StructuredLut) -> Result<Self, Error> {
         let parts = lut.parts();
-        let max = f64::from(INPUT_MAX);
+        let max = f64::from(SCENE_MAX);
         let mut ops = Vec::new();
         if parts.input != IDENTITY {
             ops.push(Op::Range(Range::clamp(-max, max)));

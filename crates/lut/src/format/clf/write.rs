@@ -169,8 +169,8 @@ fn lut3d(out: &mut impl Write, lut: &Lut3d, interpolation: Interpolation) -> io:
     for red in 0..size {
         for green in 0..size {
             for blue in 0..size {
-                if let Some(entry) = lut.entries().get(red + size * (green + size * blue)) {
-                    writeln!(out, "{}", Spaced(entry))?;
+                if let Some(entry) = lut.entry([red, green, blue]) {
+                    writeln!(out, "{}", Spaced(&entry))?;
                 }
             }
         }
