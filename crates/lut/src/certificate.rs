@@ -14,8 +14,6 @@ mod verdict;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use serde::Serialize;
-
 pub use self::bands::Band;
 pub use self::colour_set::{ColourSet, SetDeviation};
 pub use self::folds::Folds;
@@ -46,7 +44,8 @@ pub struct Maps<R, C, D, L> {
 /// Differences are in the unit of [`Maps::difference`], colours scene-linear RGB, stops relative to mid grey
 /// ([`SceneSampler::MID_GREY`](crate::SceneSampler::MID_GREY)). The names of fields are those of the
 /// serialised form.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Certificate {
     /// Which colours were looked at.
@@ -63,7 +62,7 @@ pub struct Certificate {
     pub overall: Deviation,
     /// The same by exposure, darkest first. A band without a colour is left out.
     pub bands: Vec<Band>,
-    /// Greys.
+    /// The greys from the darkest to the brightest stop of the law.
     pub neutral_axis: NeutralAxis,
     /// The caller's own colours over exposure, in the order given.
     pub colour_sets: Vec<SetDeviation>,

@@ -6,6 +6,14 @@ use crate::number::Number;
 /// `encode(v) = (1 + offset) v^(1 / exponent) - offset` above the point where a line through the origin touches it, and that
 /// line below: the "moncurve" of the Common LUT Format \[S2014-006\]. sRGB is (2.4, 0.055), a pure power has offset 0, and
 /// linear light is (1, 0).
+///
+/// ```
+/// use onelight_lut::PowerCoding;
+/// let srgb = PowerCoding::new(2.4, 0.055)?;
+/// assert!((srgb.encode(0.18) - 0.4614).abs() < 1e-4);
+/// assert!((srgb.decode(srgb.encode(-0.5)) + 0.5).abs() < 1e-12);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PowerCoding {
     exponent: f64,
@@ -16,7 +24,7 @@ pub struct PowerCoding {
 }
 
 impl PowerCoding {
-    /// No coding at all.
+    /// The coding that leaves linear light as it is.
     pub const LINEAR: Self = Self { exponent: 1.0, offset: 0.0, slope: 1.0, end: 0.0 };
 
     /// A curve from its exponent and offset.
@@ -43,17 +51,17 @@ impl PowerCoding {
         Ok(Self { exponent, offset, slope: coded_end / end, end })
     }
 
-    /// The exponent, such as 2.4.
+    /// The exponent of the power, from 1 to 10, such as 2.4.
     pub fn exponent(&self) -> f64 {
         self.exponent
     }
 
-    /// The offset, such as 0.055.
+    /// The offset of the power, from 0 to 0.9, such as 0.055.
     pub fn offset(&self) -> f64 {
         self.offset
     }
 
-    /// Slope of the straight foot.
+    /// The slope of the straight foot: coded for linear.
     pub fn slope(&self) -> f64 {
         self.slope
     }
@@ -63,12 +71,12 @@ impl PowerCoding {
         self.end
     }
 
-    /// Linear to coded.
+    /// From linear light, 1 at white, to its code; odd about 0.
     pub fn encode(&self, linear: f64) -> f64 {
         self.encode_in(linear)
     }
 
-    /// Coded to linear.
+    /// From a code back to linear light: undoes [`PowerCoding::encode`].
     pub fn decode(&self, coded: f64) -> f64 {
         let v = coded.abs();
         let linear = if v <= self.slope * self.end {

@@ -2,6 +2,13 @@ use crate::error::{Error, Kind};
 use crate::number::Number;
 
 /// The box of inputs that a table covers: per channel, the input of its first and of its last entry.
+///
+/// ```
+/// use onelight_lut::Domain;
+/// assert_eq!(Domain::common(-1.0, 3.0)?.as_common(), Some([-1.0, 3.0]));
+/// assert!(Domain::new([0.0; 3], [1.0, 0.0, 1.0]).is_err());
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Domain {
     min: [f32; 3],

@@ -3,6 +3,11 @@ use std::{error, fmt, io};
 /// What went wrong in this crate: a parameter, a table or a file that cannot be used.
 ///
 /// The message is one sentence that says what, where, what was found and what was expected.
+///
+/// ```
+/// let error = onelight_lut::Lut3d::identity(1).unwrap_err();
+/// assert_eq!(error.to_string(), "size of the 3D LUT: found 1, expected 2 to 256");
+/// ```
 #[derive(Debug)]
 pub struct Error(Box<Kind>);
 
@@ -48,6 +53,7 @@ pub(crate) enum Kind {
     DomainsDiffer { what: &'static str, min: [f32; 3], max: [f32; 3] },
     NoSamples,
     Difference { index: usize, sample: [f64; 3], found: f64 },
+    DifferenceCount { found: usize, expected: usize },
     Text { line: usize, problem: TextProblem },
     TextBytes { max: u64 },
     PixelLayout { width: usize, height: usize, channels: usize, stride: usize, len: usize },
@@ -142,6 +148,9 @@ impl fmt::Display for Error {
             Kind::NoSamples => f.write_str("samples of a deviation: found none, expected at least one"),
             Kind::Difference { index, sample, found } => {
                 write!(f, "difference at sample {index}, {sample:?}: found {found}, expected a finite number")
+            }
+            Kind::DifferenceCount { found, expected } => {
+                write!(f, "differences of a deviation: found {found}, expected {expected}, one for each sample")
             }
             Kind::Text { line, problem } => write!(f, "line {line}: {problem}"),
             Kind::TextBytes { max } => {

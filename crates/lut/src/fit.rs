@@ -4,12 +4,12 @@ use crate::error::{Error, Kind};
 use crate::interpolate::{Interpolation, Weights, weights};
 use crate::lut3d::Lut3d;
 
-/// A place in a table and the value it should read there.
+/// A place in a table and the value it should read there: what [`fit`] takes, with an example there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FitSample {
-    /// Coordinates, 0 to 1.
+    /// Where the table is read: coordinates from 0 to 1.
     pub coordinates: [f32; 3],
-    /// The value wanted.
+    /// The value that the table should read there.
     pub target: [f32; 3],
 }
 
@@ -25,7 +25,7 @@ pub struct FitSettings {
 }
 
 impl Default for FitSettings {
-    /// What served all films best: p99 and the largest difference fall with the rounds, the mean rises by a tenth.
+    /// What serves all films best: p99 and the largest difference fall with the rounds, the mean rises by a tenth.
     fn default() -> Self {
         Self { hold: 0.02, rounds: 4, steps: 15 }
     }
@@ -61,7 +61,7 @@ const SHARE: f64 = 0.3;
 /// ```
 ///
 /// # Errors
-/// If there are no samples, or a number is not finite.
+/// If there are no samples, the hold is not a number from 0 to 1e12, or an entry of the result is not finite.
 pub fn fit(
     start: &Lut3d,
     interpolation: Interpolation,
@@ -71,6 +71,10 @@ pub fn fit(
 ) -> Result<Lut3d, Error> {
     if samples.is_empty() {
         return Err(Kind::NoSamples.into());
+    }
+    if !(0.0..=1e12).contains(&settings.hold) {
+        let (found, expected) = (settings.hold, "a number from 0 to 1e12");
+        return Err(Kind::Parameter { what: "hold of a fit", found, expected }.into());
     }
     let system = System::new(start, interpolation, samples, settings.hold);
     let mut importance = vec![1.0; samples.len()];
@@ -113,8 +117,9 @@ impl<'a> System<'a> {
     fn new(start: &Lut3d, how: Interpolation, samples: &'a [FitSample], hold: f64) -> Self {
         let rows: Vec<Weights<f32>> = samples.par_iter().map(|s| weights(s.coordinates, start.size(), how)).collect();
         let mut first = vec![0; start.entries().len() + 1];
-        let used =
-            |row: &Weights<f32>| row.map(|(entry, weight)| (entry as usize, weight)).into_iter().filter(|(_, w)| *w != 0.0);
+        let used = |row: &Weights<f32>| {
+            row.map(|(entry, weight)| (entry as usize, weight)).into_iter().filter(|(_, w)| *w != 0.0)
+        };
         for (entry, _) in rows.iter().flat_map(used) {
             first[entry + 1] += 1;
         }

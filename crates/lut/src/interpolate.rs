@@ -5,6 +5,15 @@ use crate::number::Number;
 /// How a 3D table is read between its nodes.
 ///
 /// Both are continuous, exact at the nodes (a coordinate is a float32 and may miss its node by a rounding) and exact for affine maps.
+///
+/// ```
+/// use onelight_lut::{Interpolation, bake_coordinates};
+/// // White at one corner alone: the middle of the cell is an eighth of it, or half of it along the diagonal of greys.
+/// let corner = bake_coordinates(2, |rgb| [rgb[0] * rgb[1] * rgb[2]; 3], |_nodes_done| {})?;
+/// assert_eq!(corner.apply([0.5; 3], Interpolation::Trilinear), [0.125; 3]);
+/// assert_eq!(corner.apply([0.5; 3], Interpolation::Tetrahedral), [0.5; 3]);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Interpolation {
     /// From the eight corners of the cell, linearly along each axis: what texture units do.

@@ -20,7 +20,9 @@ mod wide;
 pub(crate) fn levels() -> Vec<fearless_simd::Level> {
     use fearless_simd::Level;
 
-    let mut levels = vec![Level::fallback(), Level::new()];
+    let mut levels = vec![Level::new()];
+    #[cfg(feature = "fallback")]
+    levels.push(Level::fallback());
     #[cfg(target_arch = "x86_64")]
     {
         let best = Level::new();

@@ -41,6 +41,11 @@
 //! Colour science (what a difference between two colours is arrives as a closure), images, paths and files
 //! (readers and writers are passed in), and applying a table on a GPU.
 
+/// The README's Rust blocks are compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod bake;
 mod certificate;
 mod coding;
@@ -62,6 +67,7 @@ mod pixels;
 mod scene_light;
 mod scene_sampler;
 mod shaper;
+mod split_mix64;
 mod storage;
 
 pub use bake::{bake, bake_coordinates, bake_form};
@@ -73,8 +79,8 @@ pub use coding::PowerCoding;
 pub use deviation::{Deviation, deviation};
 pub use domain::Domain;
 pub use error::Error;
-pub use fit::{FitSample, FitSettings, fit};
 pub use exponential_sum::{ExponentialSum, ExponentialTerm};
+pub use fit::{FitSample, FitSettings, fit};
 pub use form::direct::{DirectForm, DirectParts, DirectPrint};
 pub use form::plain::PlainLut;
 pub use form::structured::{Decode, Mix, StructuredLut, StructuredParts};
@@ -92,4 +98,5 @@ pub use pixels::{Channels, PixelMap, Pixels, PixelsMut, Sample, SimdLevel};
 pub use scene_light::{IDENTITY, LOG_FLOOR, Rows, SCENE_MAX, finite};
 pub use scene_sampler::SceneSampler;
 pub use shaper::{Shaper, ShaperKind, texel_centre};
+pub use split_mix64::SplitMix64;
 pub use storage::Storage;

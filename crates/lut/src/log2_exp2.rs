@@ -1,7 +1,7 @@
 //! Logarithm and power to base 2 in float32 by polynomials, the same on every machine. The pixel loops have them lane by lane
 //! in `kernel::log2_exp2`.
 
-/// The bits of 1.
+/// The bits of 1 as a float.
 pub(crate) const ONE: i32 = 0x3f80_0000;
 
 /// The bits of a number that hold its mantissa.

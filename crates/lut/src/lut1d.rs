@@ -7,6 +7,14 @@ use crate::number::Number;
 /// Three curves, one per channel, as numbers at equal steps over a [`Domain`], read linearly between them.
 ///
 /// Inputs outside the domain read the first or last entry; NaN reads the first.
+///
+/// ```
+/// use onelight_lut::Lut1d;
+/// let roots = Lut1d::sample(1024, [0.0, 4.0], f64::sqrt)?;
+/// assert!((roots.apply([1.0, 2.25, 9.0])[1] - 1.5).abs() < 1e-4);
+/// assert_eq!(roots.apply([1.0, 2.25, 9.0])[2], 2.0);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lut1d {
     domain: Domain,
@@ -17,7 +25,7 @@ impl Lut1d {
     /// The fewest entries: the two ends of the domain.
     pub const MIN_SIZE: usize = 2;
 
-    /// The most entries, 2^20.
+    /// The most entries, 2^20: 12 MiB.
     pub const MAX_SIZE: usize = 1 << 20;
 
     /// A table from its entries, red, green and blue; the first lies at the domain's minimum.
@@ -52,7 +60,7 @@ impl Lut1d {
         Self::new(domain, entries)
     }
 
-    /// The inputs covered.
+    /// The inputs that the first and the last entry stand for.
     pub fn domain(&self) -> &Domain {
         &self.domain
     }
@@ -62,7 +70,7 @@ impl Lut1d {
         &self.entries
     }
 
-    /// The number of entries.
+    /// The number of entries of each curve.
     pub fn size(&self) -> usize {
         self.entries.len()
     }

@@ -6,6 +6,14 @@ use crate::padded::Padded;
 ///
 /// Red runs fastest in memory: the entry of node `[r, g, b]` is number `r + size * (g + size * b)`. Node `i` of
 /// an axis lies at `i / (size - 1)`. Coordinates outside `[0, 1]` are clamped to it; NaN counts as 0.
+///
+/// ```
+/// use onelight_lut::{Interpolation, Lut3d};
+/// let inverse = Lut3d::new(2, Lut3d::identity(2)?.entries().map(|rgb| rgb.map(|v| 1.0 - v)).collect())?;
+/// assert_eq!(inverse.apply([0.25, 0.5, 1.0], Interpolation::Tetrahedral), [0.75, 0.5, 0.0]);
+/// assert_eq!(inverse.entry([1, 0, 0]), Some([0.0, 1.0, 1.0]));
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lut3d {
     size: usize,
@@ -50,12 +58,12 @@ impl Lut3d {
         Self::new(size, entries)
     }
 
-    /// Nodes a side.
+    /// The number of nodes along each axis.
     pub fn size(&self) -> usize {
         self.size
     }
 
-    /// All entries, red fastest.
+    /// All entries in memory order, red fastest.
     pub fn entries(&self) -> impl ExactSizeIterator<Item = [f32; 3]> + DoubleEndedIterator + Clone {
         self.entries.entries().iter().map(|&[r, g, b, _]| [r, g, b])
     }

@@ -41,7 +41,7 @@ fn zeros(length: usize) -> Vec<[f32; 4]> {
     vec![[0.0; 4]; length]
 }
 
-/// Leaves the padding untouched.
+/// Copies the entries and leaves the padding untouched.
 impl Clone for Padded {
     fn clone(&self) -> Self {
         let mut entries = zeros(self.entries.len());

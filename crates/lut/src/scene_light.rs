@@ -26,7 +26,7 @@ pub fn finite(channel: f32) -> f32 {
     finite_in(channel)
 }
 
-/// [`finite`] in either type.
+/// [`finite`] in `f32` or `f64`.
 #[inline]
 pub(crate) fn finite_in<N: Number>(channel: N) -> N {
     let max = N::of(SCENE_MAX);
@@ -46,7 +46,7 @@ pub(crate) fn log2_above_floor<N: Number>(exposure: N) -> N {
     exposure.max(N::of(LOG_FLOOR)).log2()
 }
 
-/// `rows` times a colour.
+/// The product of `rows` and a colour.
 #[inline]
 pub(crate) fn times<N: Number>(rows: &Rows, [x, y, z]: [N; 3]) -> [N; 3] {
     rows.map(|row| N::of(row[0]) * x + N::of(row[1]) * y + N::of(row[2]) * z)

@@ -4,12 +4,20 @@ use crate::error::Error;
 use crate::lut3d::Lut3d;
 
 /// How the entries of a table are kept where it is used: a texture, a file.
+///
+/// ```
+/// use onelight_lut::{Lut3d, Storage};
+/// let table = Lut3d::new(2, vec![[0.0, 0.4, 1.0]; 8])?;
+/// let stored = Storage::Unorm8.stored(&table)?;
+/// assert_eq!(stored.entry([0, 0, 0]), Some([0.0, 102.0 / 255.0, 1.0]));
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Storage {
-    /// 32-bit float.
+    /// Floats of 32 bits, as tables are held.
     #[default]
     F32,
-    /// 16-bit float.
+    /// Floats of 16 bits, up to ±65504.
     F16,
     /// 16-bit integers over the range of the table's entries.
     Unorm16,

@@ -3,8 +3,8 @@
 
 use onelight_lut::{
     Channels, Decode, DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, Interpolation,
-    Lut1d, Lut3d, Mix, PixelMap, Pixels, PixelsMut, PlainLut, PowerCoding, Rows, Shaper, StructuredLut,
-    StructuredParts, SimdLevel, bake, bake_coordinates,
+    Lut1d, Lut3d, Mix, PixelMap, Pixels, PixelsMut, PlainLut, PowerCoding, Rows, Shaper, SimdLevel, StructuredLut,
+    StructuredParts, bake, bake_coordinates,
 };
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;

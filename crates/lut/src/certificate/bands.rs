@@ -1,18 +1,17 @@
-use serde::Serialize;
-
 use super::sampling_law::SamplingLaw;
 use crate::deviation::Deviation;
 use crate::error::Error;
 use crate::scene_sampler::SceneSampler;
 
 /// The difference over the drawn colours of one range of exposure.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Band {
     /// The range of the largest channel, in stops about mid grey; the lower end belongs to the band.
     pub stops: [f64; 2],
     /// The differences; serialised beside `stops`, not below a name of their own.
-    #[serde(flatten)]
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub deviation: Deviation,
 }
 

@@ -1,22 +1,21 @@
-use serde::Serialize;
-
-use super::sampling_law::SamplingLaw;
 use super::compared::Compared;
+use super::sampling_law::SamplingLaw;
 use super::scene_coordinates::grey;
 use crate::deviation::Deviation;
 use crate::error::{Error, Kind};
 
 /// A map on greys, from the darkest to the brightest stop of the law.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct NeutralAxis {
-    /// The number of greys.
+    /// The number of greys that were looked at.
     pub count: usize,
     /// The distance of neighbours, in stops.
     pub step: f64,
-    /// The mean difference.
+    /// The mean difference over all greys.
     pub mean: f64,
-    /// The largest difference.
+    /// The largest difference among the greys.
     pub max: f64,
     /// The exposure of the grey with the largest difference, in stops about mid grey.
     pub worst_stops: f64,
@@ -27,7 +26,8 @@ pub struct NeutralAxis {
 }
 
 /// The largest fall of luminance from a grey to the next brighter one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Fall {
     /// By how much, in the unit of [`Maps::luminance`](crate::Maps::luminance); 0 if luminance never falls.
@@ -36,7 +36,7 @@ pub struct Fall {
     pub stops: Option<f64>,
 }
 
-/// Scene-linear greys, darkest first.
+/// The greys of the law, scene-linear, darkest first.
 pub(super) fn greys(law: &SamplingLaw) -> impl Iterator<Item = [f64; 3]> {
     /// So that a step that divides the range reaches its end in spite of rounding.
     const SLACK: f64 = 1e-9;
@@ -52,8 +52,7 @@ pub(super) fn measure(
     luminance: &impl Fn(&[f64; 3]) -> f64,
 ) -> Result<NeutralAxis, Error> {
     let differences = greys.differences(difference);
-    let found = Deviation::of(greys.places, differences.clone())?;
-    let worst = differences.iter().position(|&d| d >= found.max).unwrap_or(0);
+    let (found, worst) = Deviation::with_worst_index(greys.places, differences)?;
     Ok(NeutralAxis {
         count: found.count,
         step: law.neutral_step,

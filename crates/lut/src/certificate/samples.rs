@@ -14,13 +14,23 @@ use crate::scene_sampler::SceneSampler;
 
 /// All colours of a [`SamplingLaw`] with the reference's values there: made once, then held against any number of
 /// candidates by [`certify`](crate::certify()).
+///
+/// ```
+/// use onelight_lut::{Samples, SamplingLaw};
+/// let law = SamplingLaw { count: 256, ..SamplingLaw::default() };
+/// let samples = Samples::new(&law, &[], |rgb| rgb.map(|u| u / (u + 0.18)), |_colours_done| {})?;
+/// let brighter = |rgb: [f64; 3]| rgb.map(|u| u / (u + 0.17));
+/// let found = samples.deviation(brighter, |a, b| (a[1] - b[1]).abs())?;
+/// assert!(found.max > 0.01 && found.max < 0.02);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone)]
 pub struct Samples {
     law: SamplingLaw,
     sets: Vec<ColourSet>,
     /// Scene-linear; one list for all parts, so that threads share it evenly.
     places: Vec<[f64; 3]>,
-    /// Display-linear.
+    /// What the reference makes of each place, display-linear RGB.
     reference: Vec<[f64; 3]>,
     parts: Parts,
 }

@@ -1,5 +1,3 @@
-use serde::Serialize;
-
 use crate::error::{Error, Kind};
 
 /// Which colours a [`Certificate`](crate::Certificate) looks at, so that figures can be compared.
@@ -12,7 +10,8 @@ use crate::error::{Error, Kind};
 /// let thorough = SamplingLaw { count: 1 << 18, ..SamplingLaw::default() };
 /// assert_eq!(thorough.stops, [-10.0, 10.0]);
 /// ```
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SamplingLaw {
     /// Where the generator starts. A map must not have been fitted to colours of the same seed.
     pub seed: u64,
@@ -82,8 +81,9 @@ impl Default for SamplingLaw {
 }
 
 /// How [`certify`](crate::certify) looks for the largest difference.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Search {
     /// Among the drawn colours, then uphill from the worst of them. Evaluates the reference again.
     Ascent,

@@ -286,7 +286,9 @@ fn samples_serve_many_candidates() {
 
 #[test]
 fn seeds_draw_other_colours() {
-    let of = |seed| certificate_of(&SamplingLaw { seed, ..law() }, Search::SamplesOnly, |rgb| film(rgb).map(f64::sqrt)).overall;
+    let of = |seed| {
+        certificate_of(&SamplingLaw { seed, ..law() }, Search::SamplesOnly, |rgb| film(rgb).map(f64::sqrt)).overall
+    };
     assert_ne!(of(1), of(2));
     assert_eq!(of(2), of(2));
     assert_ne!(SamplingLaw::SEED, 0);
@@ -327,12 +329,20 @@ fn what_cannot_be_measured_is_an_error() {
 
 #[test]
 fn small_laws_work() {
-    let law = SamplingLaw { count: 1, ascents: 0, ascent_steps: 0, fold_places: 0, stops: [1.0, 1.0], ..SamplingLaw::default() };
+    let law = SamplingLaw {
+        count: 1,
+        ascents: 0,
+        ascent_steps: 0,
+        fold_places: 0,
+        stops: [1.0, 1.0],
+        ..SamplingLaw::default()
+    };
     let found = certificate_of(&law, Search::Ascent, |rgb| film(rgb).map(|v| 0.9 * v));
     assert_eq!((found.bands.len(), found.neutral_axis.count, found.folds.places), (1, 1, 1));
     assert_eq!(found.max_found, found.overall.max);
 }
 
+#[cfg(feature = "serde")]
 #[test]
 fn the_serialised_form_keeps_its_names() {
     let json = serde_json::to_value(certificate(|rgb| film(rgb).map(|v| 0.99 * v))).unwrap();

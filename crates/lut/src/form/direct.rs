@@ -12,13 +12,30 @@ use fearless_simd::Level;
 
 /// The direct form: no 3D table. Sums of a few exponentials stand for the light through each film.
 ///
-/// 1. `input` matrix, clamped to [0, [`SCENE_MAX`]]
-/// 2. `exposure` matrix, log2 (of at least [`LOG_FLOOR`]), a curve on each channel
-/// 3. where there is a `print`: its sum of exponentials, log2 (of at least [`LOG_FLOOR`]), a second curve on each channel
+/// 1. `input` matrix, clamped to [0, [`SCENE_MAX`](crate::SCENE_MAX)]
+/// 2. `exposure` matrix, log2 (of at least [`LOG_FLOOR`](crate::LOG_FLOOR)), a curve on each channel
+/// 3. where there is a `print`: its sum of exponentials, log2 (of at least [`LOG_FLOOR`](crate::LOG_FLOOR)), a second curve on each channel
 /// 4. the `projection`, a sum of exponentials that gives linear RGB
 /// 5. `coding`
 ///
-/// NaN counts as 0 and infinities as ±[`SCENE_MAX`] before the first matrix.
+/// NaN counts as 0 and infinities as ±[`SCENE_MAX`](crate::SCENE_MAX) before the first matrix.
+///
+/// ```
+/// use onelight_lut::{DirectForm, DirectParts, ExponentialSum, ExponentialTerm, IDENTITY, Lut1d, PowerCoding};
+/// // A reversal film whose dye falls by half a unit for each stop, seen through three narrow filters.
+/// let unit = |c: usize, v: f32| std::array::from_fn(|k| if k == c { v } else { 0.0 });
+/// let terms = (0..3).map(|c| ExponentialTerm { rate: unit(c, 2.0), weight: unit(c, 1.0) }).collect();
+/// let form = DirectForm::new(DirectParts {
+///     input: IDENTITY,
+///     exposure: IDENTITY,
+///     curves: Lut1d::sample(64, [-10.0, 0.0], |stops| -0.5 * stops)?,
+///     print: None,
+///     projection: ExponentialSum::new(terms)?,
+///     coding: PowerCoding::LINEAR,
+/// })?;
+/// assert!((form.apply([0.25, 0.18, 1.0])[0] - 0.25).abs() < 1e-5);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectForm {
     parts: DirectParts,
@@ -26,18 +43,18 @@ pub struct DirectForm {
     print_curves: Option<Curves>,
 }
 
-/// What a [`DirectForm`] is made of.
+/// What a [`DirectForm`] is made of, in the order in which it is applied.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectParts {
     /// From the picture's primaries to those of the exposure matrix.
     pub input: Rows,
     /// To the exposure of each channel.
     pub exposure: Rows,
-    /// Curves over log2 exposure.
+    /// The first film: a curve over log2 exposure for each channel.
     pub curves: Lut1d,
     /// A second film behind the first.
     pub print: Option<DirectPrint>,
-    /// To linear RGB.
+    /// From the last film's values to linear RGB.
     pub projection: ExponentialSum,
     /// From linear to coded RGB.
     pub coding: PowerCoding,
@@ -48,7 +65,7 @@ pub struct DirectParts {
 pub struct DirectPrint {
     /// From the first curves' values to the exposure of each channel.
     pub exposure: ExponentialSum,
-    /// Curves over log2 exposure.
+    /// A curve over log2 exposure for each channel.
     pub curves: Lut1d,
 }
 

@@ -11,6 +11,15 @@ use crate::shaper::Shaper;
 ///
 /// Input is scene-linear, output is whatever coding was baked. Any input, NaN and infinities included, reads a
 /// place in the table.
+///
+/// ```
+/// use onelight_lut::{Interpolation, PlainLut, Shaper, bake};
+/// let shaper = Shaper::log2(0.02, 4.0)?;
+/// let table = bake(33, &shaper, |rgb| rgb.map(|u| u / (u + 0.18)), |_nodes_done| {})?;
+/// let form = PlainLut::new(shaper, table, Interpolation::Tetrahedral);
+/// assert!((form.apply([0.18; 3])[1] - 0.5).abs() < 1e-3);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlainLut {
     shaper: Shaper,
@@ -29,7 +38,7 @@ impl PlainLut {
         &self.shaper
     }
 
-    /// The table.
+    /// The table that is read at the shaper's coordinates.
     pub fn table(&self) -> &Lut3d {
         &self.table
     }

@@ -17,13 +17,29 @@ use crate::scene_light::{Rows, check_rows, log2_exposure, times};
 /// The structured form: one fetch from a 3D table whose axes are bent and mixed to fit, so that few nodes do and any input
 /// is in range.
 ///
-/// 1. `input` matrix, clamped to [0, [`SCENE_MAX`]]
-/// 2. `exposure` matrix, log2 (of at least [`LOG_FLOOR`]), a curve on each channel
+/// 1. `input` matrix, clamped to [0, [`SCENE_MAX`](crate::SCENE_MAX)]
+/// 2. `exposure` matrix, log2 (of at least [`LOG_FLOOR`](crate::LOG_FLOOR)), a curve on each channel
 /// 3. where there is a `mix`: a matrix with offset, and a second curve on each channel
 /// 4. the 3D table
 /// 5. [`Decode`]
 ///
-/// NaN counts as 0 and infinities as ±[`SCENE_MAX`] before the first matrix.
+/// NaN counts as 0 and infinities as ±[`SCENE_MAX`](crate::SCENE_MAX) before the first matrix.
+///
+/// ```
+/// use onelight_lut::{Decode, IDENTITY, Interpolation, Lut1d, Lut3d, StructuredLut, StructuredParts};
+/// let form = StructuredLut::new(StructuredParts {
+///     input: IDENTITY,
+///     exposure: IDENTITY,
+///     // The table's axes are stops from -10 to 0.
+///     curves: Lut1d::sample(64, [-10.0, 0.0], |stops| 1.0 + stops / 10.0)?,
+///     mix: None,
+///     table: Lut3d::identity(5)?,
+///     decode: Decode::Coded,
+///     interpolation: Interpolation::Tetrahedral,
+/// })?;
+/// assert!((form.apply([0.5, 0.25, 1.0])[0] - 0.9).abs() < 1e-5);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct StructuredLut {
     parts: StructuredParts,
@@ -31,18 +47,18 @@ pub struct StructuredLut {
     mix_curves: Option<Curves>,
 }
 
-/// What a [`StructuredLut`] is made of.
+/// What a [`StructuredLut`] is made of, in the order in which it is applied.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StructuredParts {
     /// From the picture's primaries to those of the exposure matrix.
     pub input: Rows,
     /// To the exposure of each channel.
     pub exposure: Rows,
-    /// Curves over log2 exposure.
+    /// A curve over log2 exposure for each channel; its values are the coordinates, or what `mix` makes them of.
     pub curves: Lut1d,
     /// A second mix of the channels, with its curves.
     pub mix: Option<Mix>,
-    /// The table.
+    /// The table, read at coordinates from 0 to 1.
     pub table: Lut3d,
     /// How entries of the table become the output.
     pub decode: Decode,
@@ -53,20 +69,20 @@ pub struct StructuredParts {
 /// A matrix with offset, then a curve on each channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mix {
-    /// The matrix.
+    /// From the first curves' values to those that the second take.
     pub matrix: Rows,
-    /// Added after the matrix.
+    /// Added to what the matrix gives.
     pub offset: [f32; 3],
-    /// The curves.
+    /// A curve for each channel, whose values are the table's coordinates.
     pub curves: Lut1d,
 }
 
 /// How entries of a table become the output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Decode {
-    /// They are the output.
+    /// The entries are the output as they are.
     Coded,
-    /// They are densities: 10^-entry, a matrix to linear RGB, then the output's coding.
+    /// The entries are densities: 10^-entry, a matrix to linear RGB, then the output's coding.
     Density {
         /// From the three transmittances to linear RGB.
         matrix: Rows,

@@ -17,7 +17,14 @@ pub(crate) enum Axes<'a> {
 }
 
 /// Finds the cells of the block's colours in a table of `size` nodes a side, and what [`super::lookup`] needs to read them.
-pub(super) fn find_cells(level: Level, axes: Axes<'_>, block: &mut Block, count: usize, size: usize, how: Interpolation) {
+pub(super) fn find_cells(
+    level: Level,
+    axes: Axes<'_>,
+    block: &mut Block,
+    count: usize,
+    size: usize,
+    how: Interpolation,
+) {
     let cells = (size - 1) as f32;
     dispatch!(level, simd => match axes {
         Axes::Coordinates => cells_with(simd, block, count, size, how, Scaled { cells }),
@@ -48,7 +55,7 @@ impl Position for Scaled {
 #[derive(Clone, Copy)]
 struct Shaped {
     per_offset: f32,
-    /// Cells for each stop.
+    /// Cells of the table for each stop.
     per_stop: f32,
     cells: f32,
 }
@@ -89,7 +96,7 @@ fn corner<S: Simd>(simd: S, colour: [S::f32s; 3], size: usize, axis: impl Positi
     (entry.to_int(), [position[0] - node[0], position[1] - node[1], position[2] - node[2]])
 }
 
-/// Four vertices and their weights.
+/// The four vertices of the tetrahedron that a colour lies in, and their weights.
 #[inline(always)]
 fn tetrahedra<S: Simd>(simd: S, block: &mut Block, count: usize, size: usize, axis: impl Position) {
     let steps = map_channels(
@@ -119,7 +126,7 @@ fn tetrahedra<S: Simd>(simd: S, block: &mut Block, count: usize, size: usize, ax
     }
 }
 
-/// Three fractions.
+/// The first corner of a cell, and how far into it along each axis.
 #[inline(always)]
 fn cubes<S: Simd>(simd: S, block: &mut Block, count: usize, size: usize, axis: impl Position) {
     let scratch = &mut block.scratch;

@@ -12,7 +12,7 @@ pub(crate) struct Curves([ChannelCurve; 3]);
 #[derive(Clone, Debug, PartialEq)]
 struct ChannelCurve {
     pieces: Vec<[f32; 2]>,
-    /// The number of pieces.
+    /// The number of pieces, which is where the last ends.
     end: f32,
     start: f32,
     scale: f32,

@@ -60,7 +60,7 @@ pub trait PixelMap: sealed::Sealed + Sync {
         Ok(())
     }
 
-    /// Every pixel in place.
+    /// Every pixel of a picture in place: what is read is overwritten.
     fn map_in_place<S: Sample>(&self, pixels: &mut PixelsMut<'_, S>) {
         run::map_in_place(self.blocks().0, SimdLevel::best().level(), pixels.samples, pixels.layout);
     }

@@ -10,7 +10,7 @@ pub(super) trait Raw: Copy + Default {
 
     fn to_bits(self) -> u32;
 
-    /// From the lower bits.
+    /// From the lower bits of a word; the others are dropped.
     fn from_bits(bits: u32) -> Self;
 }
 

@@ -30,7 +30,7 @@ impl Cut {
         Self { channels, stride: stride.max(1), samples: layout.row_samples(), pieces: height }
     }
 
-    /// Pieces for a task.
+    /// Pieces that come to a task's worth of pixels.
     fn pieces_per_task(self) -> usize {
         (TASK * self.channels.count()).div_ceil(self.samples.max(1))
     }
@@ -51,7 +51,7 @@ pub(super) fn map<S: Sample, T: Sample>(
     map_samples(form, level, (S::samples(from), here), (T::samples_mut(to), there));
 }
 
-/// A picture in place.
+/// A picture in place: each block is read before it is written.
 pub(super) fn map_in_place<S: Sample>(form: &dyn BlockMap, level: Level, samples: &mut [S], layout: Layout) {
     map_samples_in_place(form, level, S::samples_mut(samples), layout);
 }

@@ -17,7 +17,7 @@ use super::samples::{Samples, SamplesMut};
 /// assert_eq!(51_u8.to_f32(), 0.2);
 /// ```
 pub trait Sample: sealed::Sealed + Copy + Default + Send + Sync + 'static {
-    /// The value.
+    /// The value that it stands for.
     fn to_f32(self) -> f32;
 
     /// The nearest number of this type.

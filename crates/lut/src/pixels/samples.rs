@@ -11,7 +11,7 @@ pub enum Samples<'a> {
     U8(&'a [u8]),
 }
 
-/// [`Samples`] to write.
+/// [`Samples`] that can be written.
 pub enum SamplesMut<'a> {
     F32(&'a mut [f32]),
     F16(&'a mut [f16]),
@@ -52,7 +52,7 @@ impl SamplesMut<'_> {
         }
     }
 
-    /// The same to read.
+    /// The same samples, to be read.
     pub(super) fn as_samples(&self) -> Samples<'_> {
         match self {
             Self::F32(samples) => Samples::F32(samples),

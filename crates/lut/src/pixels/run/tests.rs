@@ -1,8 +1,9 @@
 use super::*;
 use crate::kernel::levels;
 use crate::{
-    Decode, DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, IDENTITY, Interpolation, Lut1d, Lut3d,
-    Mix, PixelMap, PlainLut, PowerCoding, Rows, SceneSampler, Shaper, SimdLevel, StructuredLut, StructuredParts,
+    Decode, DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, IDENTITY, Interpolation,
+    Lut1d, Lut3d, Mix, PixelMap, PlainLut, PowerCoding, Rows, SceneSampler, Shaper, SimdLevel, StructuredLut,
+    StructuredParts,
 };
 use half::f16;
 
