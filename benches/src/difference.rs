@@ -1,7 +1,7 @@
 use onelight::Look;
 use onelight::WorkingSpace;
 use onelight::certify::{Certifier, to_six_stops};
-use onelight::lut::{Law, Search};
+use onelight::lut::{SamplingLaw, Search};
 use serde::Serialize;
 
 use crate::error::Result;
@@ -29,7 +29,7 @@ pub struct Difference {
 ///
 /// # Errors
 /// If the law or the look's spaces are impossible.
-pub(crate) fn differences(look: &Look, law: &Law, forms: &[&Form], step: &dyn Fn()) -> Result<Vec<Difference>> {
+pub(crate) fn differences(look: &Look, law: &SamplingLaw, forms: &[&Form], step: &dyn Fn()) -> Result<Vec<Difference>> {
     let certifier = Certifier::new(look)?;
     let samples = certifier.samples(law, WorkingSpace::Srgb)?;
     step();

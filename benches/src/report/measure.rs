@@ -1,6 +1,6 @@
 //! Speed and error of every form of a look.
 
-use onelight::lut::Law;
+use onelight::lut::SamplingLaw;
 use onelight::{Process, Reference, Word, stock};
 use serde::Serialize;
 
@@ -66,12 +66,12 @@ pub(super) struct Prepared {
 }
 
 /// Colours that errors are measured on.
-pub(super) fn law(scope: Scope) -> Law {
+pub(super) fn law(scope: Scope) -> SamplingLaw {
     let count = match scope {
         Scope::Full => 1 << 17,
         Scope::Quick => 1 << 10,
     };
-    Law { count, ..Law::default() }
+    SamplingLaw { count, ..SamplingLaw::default() }
 }
 
 impl Prepared {

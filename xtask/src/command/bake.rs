@@ -5,7 +5,7 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 use onelight::baked::{Baked, BakedForm, Form, Recipe, ShaperChoice, smallest_under};
 use onelight::certify::{Certifier, Tint, in_words, summary};
-use onelight::lut::{Certificate, Deviation, Law, Search, Storage, deviation};
+use onelight::lut::{Certificate, Deviation, SamplingLaw, Search, Storage, deviation};
 use onelight::{DirectSettings, Entries, Look, Nodes, Process, TableCoding, TransferCurve, Word, WorkingSpace};
 use serde_json::json;
 
@@ -212,7 +212,7 @@ impl Measured {
     fn new(film: &Look, baked: &Baked, formats: &[Format], scene: Option<&[[f64; 3]]>) -> Result<Self> {
         let measure = Certifier::new(film)?;
         let export = Export { baked, comments: Vec::new() };
-        let samples = measure.samples(&Law::default(), WorkingSpace::Srgb)?;
+        let samples = measure.samples(&SamplingLaw::default(), WorkingSpace::Srgb)?;
         let mut written = Vec::new();
         for &format in formats {
             written.push(export.as_written(format)?);
@@ -225,7 +225,7 @@ impl Measured {
         // A plain table takes what is inside its own primaries only.
         let rec2020 = match baked.form() {
             BakedForm::Structured(_) | BakedForm::Direct(_) => {
-                let samples = measure.samples(&Law::default(), WorkingSpace::Rec2020)?;
+                let samples = measure.samples(&SamplingLaw::default(), WorkingSpace::Rec2020)?;
                 Some(measure.certify_in(WorkingSpace::Rec2020, &samples, first, Search::Ascent)?)
             }
             BakedForm::Plain(_) | BakedForm::Coded { .. } => None,
