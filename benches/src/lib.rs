@@ -5,7 +5,6 @@
 //! beside ours. The modules are what `cargo xtask report`, `stability`, `gpu-bench`, `certify --buffers` and `stocks --likeness` print
 //! and write; they return values and text, and write nothing.
 
-mod baker;
 pub mod buffers;
 mod calendar;
 mod error;
@@ -20,7 +19,6 @@ pub mod report;
 pub mod sheet_fidelity;
 pub mod stability;
 
-pub use baker::{Baker, Difference};
 pub use error::Error;
 pub use form::Form;
 pub use look::{Forms, NEGATIVE, PLAIN_SIZE, PROCESSES, REVERSAL, SHAPER, film, plain, shaper};

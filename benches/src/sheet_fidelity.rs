@@ -3,7 +3,7 @@
 use onelight::film::{Density, LogExposure, PerLayer};
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Basis, DisplayDifference, Reconstruction, RgbSpace, SpectralShape, color_checker};
-use onelight::{Aim, Process, Reference, Stock, StockKind, stock, stock_ids};
+use onelight::{Aim, FilmProcess, Reference, Stock, StockKind, stock, stock_ids};
 use serde::Serialize;
 
 use crate::error::Result;
@@ -46,9 +46,9 @@ pub fn all() -> Result<Vec<SheetFidelity>> {
 }
 
 fn of(film: &Stock) -> Result<SheetFidelity> {
-    let process = Process::for_camera(film.id())?;
+    let process = FilmProcess::for_camera(film.id())?;
     let reference = process.compile()?;
-    let sheet = Process { aim: Aim::Sheet, ..process }.compile()?;
+    let sheet = FilmProcess { aim: Aim::Sheet, ..process }.compile()?;
     Ok(SheetFidelity {
         id: film.id().to_owned(),
         curves: curves(film, &reference)?,

@@ -181,15 +181,16 @@ fn number(value: &Value) -> String {
 
 #[cfg(test)]
 mod tests {
-    use onelight::{DirectSettings, Nodes, Process};
+    use onelight::{ColourSpaces, DirectSettings, FilmProcess, Nodes, Process};
 
     use super::*;
 
     #[test]
     fn a_file_holds_every_bit_of_its_form() {
-        for process in [Process::default(), Process::for_camera("fuji-velvia-50").unwrap()] {
+        for process in [FilmProcess::default(), FilmProcess::for_camera("fuji-velvia-50").unwrap()] {
             for output_coding in [onelight::TransferCurve::Srgb, onelight::TransferCurve::Linear] {
-                let film = Process { output_coding, ..process.clone() }.compile().unwrap();
+                let spaces = ColourSpaces { output_coding, ..Default::default() };
+                let film = FilmProcess { spaces, ..process.clone() }.compile().unwrap();
                 let nodes = Nodes::Grid { step_nm: 20 };
                 let direct = film.direct(&DirectSettings { nodes }).unwrap();
                 let bytes = write(&direct, &["a look".to_owned()]).unwrap();

@@ -2,14 +2,14 @@
 
 use anyhow::{Result, anyhow, bail};
 use clap::ValueEnum;
-use onelight::Process;
+use onelight::Word as _;
+use onelight::baked::{Baked, BakedForm, Form};
 use onelight::lut::{
     ClfProcess, CubeFile, Domain, Interpolation, Lut3d, PngDepth, Spi3dConfig, Storage, StripGreen, read_hald,
     read_spi3d, read_strip, write_hald, write_ktx2, write_spi3d, write_strip,
 };
 
 use crate::atomic_file::WholeSet;
-use crate::compiled::{Compiled, Form};
 use crate::direct_file;
 
 /// The file formats of a baked look.
@@ -73,8 +73,7 @@ pub(crate) type Applied<'a> = Box<dyn Fn([f32; 3]) -> [f32; 3] + Sync + 'a>;
 
 /// What goes into the files.
 pub(crate) struct Export<'a> {
-    pub(crate) process: &'a Process,
-    pub(crate) compiled: &'a Compiled,
+    pub(crate) baked: &'a Baked,
     /// Name, input and output, certificate: lines for formats that hold comments.
     pub(crate) comments: Vec<String>,
 }
@@ -96,11 +95,11 @@ impl Export<'_> {
             Format::Cube => {
                 let cube = CubeFile::read(bytes)?;
                 let apply = move |rgb| cube.apply(rgb, Interpolation::Tetrahedral);
-                return Ok(Box::new(move |rgb| apply(self.compiled.coordinates_for_file(rgb))));
+                return Ok(Box::new(move |rgb| apply(self.baked.coordinates_for_file(rgb))));
             }
             Format::Clf => {
                 let clf = ClfProcess::read(bytes)?;
-                return Ok(Box::new(move |rgb| clf.apply(self.compiled.coordinates_for_file(rgb))));
+                return Ok(Box::new(move |rgb| clf.apply(self.baked.coordinates_for_file(rgb))));
             }
             Format::Json => {
                 let direct = direct_file::read(bytes)?;
@@ -111,8 +110,8 @@ impl Export<'_> {
             Format::Strip => read_strip(bytes, StripGreen::Down)?,
             Format::Hald => read_hald(bytes)?,
         };
-        let compiled = self.compiled.with_table(table);
-        Ok(Box::new(move |rgb| compiled.apply(rgb)))
+        let baked = self.baked.with_table(table);
+        Ok(Box::new(move |rgb| baked.apply(rgb)))
     }
 
     /// Names and contents of the files of one format.
@@ -121,31 +120,31 @@ impl Export<'_> {
         let mut files = Vec::new();
         match format {
             Format::Cube => {
-                let cube = match self.compiled {
-                    Compiled::Plain(lut) => CubeFile::from_plain(lut, CubeFile::SHAPER_POINTS)?,
+                let cube = match self.baked.form() {
+                    BakedForm::Plain(lut) => CubeFile::from_plain(lut, CubeFile::SHAPER_POINTS)?,
                     _ => CubeFile::from_3d(Domain::UNIT, self.table(format)?.clone()),
                 };
-                cube.with_title(&self.process.name()).with_comments(&self.comments).write(&mut bytes)?;
+                cube.with_title(self.baked.name()).with_comments(&self.comments).write(&mut bytes)?;
                 files.push(("look.cube", bytes));
             }
             Format::Clf => {
-                let clf = match self.compiled {
-                    Compiled::Plain(lut) => ClfProcess::from_plain(lut)?,
-                    Compiled::Coded { table, .. } => ClfProcess::from_table(table, Interpolation::Tetrahedral),
-                    Compiled::Structured(lut) => ClfProcess::from_structured(lut)?,
-                    Compiled::Direct(_) => return Err(format.cannot_hold(Form::Direct)),
+                let clf = match self.baked.form() {
+                    BakedForm::Plain(lut) => ClfProcess::from_plain(lut)?,
+                    BakedForm::Coded { table, .. } => ClfProcess::from_table(table, Interpolation::Tetrahedral),
+                    BakedForm::Structured(lut) => ClfProcess::from_structured(lut)?,
+                    BakedForm::Direct(_) => return Err(format.cannot_hold(Form::Direct)),
                 };
-                clf.with_name(&self.process.name()).with_descriptions(&self.comments).write(&mut bytes)?;
+                clf.with_name(self.baked.name()).with_descriptions(&self.comments).write(&mut bytes)?;
                 files.push(("look.clf", bytes));
             }
             Format::Spi3d => {
                 write_spi3d(&mut bytes, self.table(format)?)?;
                 files.push(("look.spi3d", bytes));
-                if let Compiled::Plain(lut) = self.compiled {
+                if let BakedForm::Plain(lut) = self.baked.form() {
                     let mut config = Vec::new();
-                    let name = self.process.name();
+                    let name = self.baked.name();
                     Spi3dConfig::new(lut, "look.spi3d")
-                        .with_look(&name)
+                        .with_look(name)
                         .with_comments(&self.comments)
                         .write(&mut config)?;
                     files.push(("look_spi3d.ocio", config));
@@ -168,11 +167,11 @@ impl Export<'_> {
                 write_hald(&mut bytes, self.coded(format)?, PngDepth::Sixteen, &self.comments)?;
                 files.push(("look_hald.png", bytes));
             }
-            Format::Json => match self.compiled {
-                Compiled::Direct(direct) => {
+            Format::Json => match self.baked.form() {
+                BakedForm::Direct(direct) => {
                     files.push(("look.direct.json", direct_file::write(direct, &self.comments)?));
                 }
-                other => return Err(format.cannot_hold(other.form())),
+                other => return Err(format.cannot_hold(other.kind())),
             },
         }
         Ok(files)
@@ -180,7 +179,7 @@ impl Export<'_> {
 
     /// The table of a plain form.
     fn table(&self, format: Format) -> Result<&Lut3d> {
-        match (self.compiled.form(), self.compiled.table()) {
+        match (self.baked.form().kind(), self.baked.table()) {
             (Form::Plain, Some(table)) => Ok(table),
             (form, _) => Err(format.cannot_hold(form)),
         }
@@ -188,8 +187,8 @@ impl Export<'_> {
 
     /// The table of a form that takes coded colour: pictures hold no shaper.
     fn coded(&self, format: Format) -> Result<&Lut3d> {
-        match self.compiled {
-            Compiled::Coded { table, .. } => Ok(table),
+        match self.baked.form() {
+            BakedForm::Coded { table, .. } => Ok(table),
             _ => bail!(
                 "--format {} holds no shaper for scene-linear light, expected a coding such as --shaper srgb",
                 format.word()

@@ -1,16 +1,14 @@
 //! The onelight runner, `cargo xtask`: flags, file names, progress and exit status. The only crate that opens paths.
 
 mod atomic_file;
-mod baker;
-mod certificate;
 mod command;
-mod compiled;
 mod direct_file;
 mod export;
 mod exposure;
 mod finish;
 mod folders;
 mod look;
+mod own_stock;
 pub mod picture;
 mod plot;
 mod preview;

@@ -40,7 +40,7 @@ pub(crate) fn to_input_space(own: Option<&Chromaticities>, process: &Process) ->
     let xy = |[x, y]: [f32; 2]| (f64::from(x), f64::from(y));
     let white = Chromaticity::new(f64::from(c.white[0]), f64::from(c.white[1]));
     let space = RgbSpace::new([xy(c.red), xy(c.green), xy(c.blue)], white);
-    let matrix = space.to_about(&process.input_space.space(), Chromaticity::black_body_6500_k());
+    let matrix = space.to_about(&process.spaces().input_space.space(), Chromaticity::black_body_6500_k());
     matrix.map(Some).context("its chromaticities")
 }
 

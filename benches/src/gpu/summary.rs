@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
-use onelight::lut::{DirectForm, Interpolation, PlainLut, Storage, StructuredLut, bake};
-use onelight::{Process, Reference, StructuredSettings};
+use onelight::baked::Recipe;
+use onelight::lut::{DirectForm, PlainLut, Storage, StructuredLut};
+use onelight::{Look, Process, Reference, StructuredSettings};
 use onelight_gpu::{Fetch, LookSettings, wgpu};
 use serde_json::{Value, json};
 use wgpu::TextureFormat::{self, Rgb10a2Unorm, Rgba8Unorm, Rgba8UnormSrgb, Rgba16Float, Rgba32Float};
@@ -12,9 +13,9 @@ use super::card::Card;
 use super::difference::{Difference, difference};
 use super::measure::{Subject, times};
 use super::pictures::{Sources, scene};
-use crate::baker::Baker;
 use crate::calendar::{date, now};
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::form::Form;
 
 const SIZES: [[u32; 2]; 2] = [[1920, 1080], [3840, 2160]];
 const INPUTS: [TextureFormat; 2] = [Rgba16Float, Rgba32Float];
@@ -69,11 +70,11 @@ pub struct Summary {
 ///
 /// # Errors
 /// If there is no adapter, it is software and that is not allowed, it has no clock, or it fails.
-pub fn measure(software: bool, baker: &dyn Baker) -> Result<Summary> {
+pub fn measure(software: bool) -> Result<Summary> {
     let card = Card::open(software)?;
     let process = Process::default();
     let film = process.compile()?;
-    let forms = Forms::new(&film, baker)?;
+    let forms = Forms::new(&film)?;
     let subjects = forms.subjects();
     let mut facts = Vec::new();
     for subject @ Subject { form, settings } in &subjects {
@@ -92,15 +93,12 @@ pub fn measure(software: bool, baker: &dyn Baker) -> Result<Summary> {
 }
 
 impl Forms {
-    fn new(film: &Reference, baker: &dyn Baker) -> Result<Self> {
-        let shaper = baker.shaper(&onelight::Look::from(film.clone()), None)?;
-        let table = bake(PLAIN_SIZE, &shaper, |rgb| film.develop(rgb), |_| {})?;
+    fn new(film: &Reference) -> Result<Self> {
+        let Form::Plain(plain) = Form::baked(&Look::from(film.clone()), &Recipe::cube(PLAIN_SIZE))? else {
+            return Err(Error::new("a table with a shaper has another form"));
+        };
         let settings = StructuredSettings { size: STRUCTURED_SIZE, ..Default::default() };
-        Ok(Self {
-            plain: PlainLut::new(shaper, table, Interpolation::Tetrahedral),
-            structured: film.structured(&settings)?,
-            direct: film.direct(&Default::default())?,
-        })
+        Ok(Self { plain, structured: film.structured(&settings)?, direct: film.direct(&Default::default())? })
     }
 
     fn subjects(&self) -> [Subject<'_>; 5] {

@@ -1,16 +1,16 @@
 //! Speed and error of every form of a look.
 
-use onelight::lut::Law;
-use onelight::{Process, Reference, Word, stock};
+use onelight::certify::Certifier;
+use onelight::lut::{Law, Search};
+use onelight::{Process, Reference, Word, WorkingSpace, stock};
 use serde::Serialize;
 
+use super::difference::Difference;
 use super::forms::{self, Kind, Made};
 use super::frame::Frame;
 use super::scope::Scope;
 use super::stopwatch::{Pass, Timing, copying, interleaved, mapping};
-use crate::baker::{Baker, Difference};
 use crate::error::Result;
-use crate::form::Form;
 use crate::progress::{OnProgress, Steps};
 
 /// A form with its speed and its difference from the film.
@@ -76,15 +76,22 @@ pub(super) fn law(scope: Scope) -> Law {
 
 impl Prepared {
     /// Makes all forms of a process and measures their differences from the film.
-    pub(super) fn new(process: &Process, scope: Scope, baker: &dyn Baker, progress: OnProgress<'_>) -> Result<Self> {
+    pub(super) fn new(process: &Process, scope: Scope, progress: OnProgress<'_>) -> Result<Self> {
         let film = process.compile()?;
         let steps = Steps::new("making forms", forms::steps(scope), progress);
-        let made = forms::all(&film, scope, baker, || steps.step())?;
+        let made = forms::all(&film, scope, || steps.step())?;
         drop(steps);
         let look = onelight::Look::from(film.clone());
         let steps = Steps::new("certifying", 1 + made.len() as u64, progress);
-        let forms: Vec<&Form> = made.iter().map(|made| &made.form).collect();
-        let errors = baker.certify(process, &look, &law(scope), &forms, &|| steps.step())?;
+        let certifier = Certifier::new(&look)?;
+        let samples = certifier.samples(&law(scope), WorkingSpace::Srgb)?;
+        steps.step();
+        let mut errors = Vec::new();
+        for made in &made {
+            let certificate = certifier.certify(&samples, |rgb| made.form.apply(rgb), Search::Ascent)?;
+            errors.push(Difference::of(&certificate));
+            steps.step();
+        }
         drop(steps);
         Ok(Self { process: process.clone(), title: title(process)?, film, made, errors })
     }
@@ -125,10 +132,10 @@ impl Prepared {
 
 /// `KODAK VISION3 250D 5207 on KODAK 2383, neutral aim`
 fn title(process: &Process) -> Result<String> {
-    let camera = stock(&process.camera)?;
-    let print = process.print.as_deref().map(stock).transpose()?;
+    let camera = stock(process.film()?.camera.id())?;
+    let print = process.print().map(|print| stock(print.id())).transpose()?;
     let on = print.map_or_else(String::new, |print| format!(" on {}", print.name()));
-    Ok(format!("{}{on}, {} aim", camera.name(), process.aim.word()))
+    Ok(format!("{}{on}, {} aim", camera.name(), process.aim().word()))
 }
 
 /// Times all forms of all looks together; the last time is that of a copy.

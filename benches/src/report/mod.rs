@@ -5,6 +5,7 @@
 
 mod axis;
 mod contents;
+mod difference;
 mod figure;
 mod forms;
 mod frame;
@@ -35,7 +36,6 @@ use self::measure::{Prepared, law, timed};
 pub use self::peers::Elsewhere;
 pub use self::scope::Scope;
 use self::studies::{Studies, growth};
-use crate::baker::Baker;
 use crate::error::{Error, Result};
 use crate::progress::OnProgress;
 
@@ -64,17 +64,11 @@ impl Listener<'_> {
 ///
 /// # Errors
 /// If a look does not compile or there is none, or if the system gives no threads.
-pub fn measure(
-    processes: &[Process],
-    scope: Scope,
-    elsewhere: Elsewhere,
-    baker: &dyn Baker,
-    listener: Listener<'_>,
-) -> Result<Report> {
+pub fn measure(processes: &[Process], scope: Scope, elsewhere: Elsewhere, listener: Listener<'_>) -> Result<Report> {
     let progress = listener.progress;
     let mut prepared = Vec::new();
     for process in processes {
-        prepared.push(listener.time("forms", || Prepared::new(process, scope, baker, progress))?);
+        prepared.push(listener.time("forms", || Prepared::new(process, scope, progress))?);
     }
     let frame = listener.time("picture", || Frame::new(scope.scene_size()))?;
     let rounds = scope.rounds();

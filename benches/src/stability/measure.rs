@@ -1,19 +1,18 @@
 //! What is measured, and where it is worst.
 
+use onelight::baked::{Form as BakedAs, Recipe};
 use onelight::lut::Sample;
 use onelight::spectra::ciede2000;
 use onelight::spectra::nalgebra::Vector3;
-use onelight::{DirectSettings, Entries, Look, Process, StructuredSettings, TransferCurve, Word};
+use onelight::{Look, Process, TransferCurve, Word};
 use rayon::prelude::*;
 
 use super::cases::{Case, Order, Strand, general};
 use super::gpu::Card;
 use super::hard_inputs;
 use super::implementations::{Kind, Output, outputs};
-use crate::baker::{Baker, PlainShaper, PlainTable};
 use crate::error::Result;
 use crate::form::Form;
-use crate::look::PLAIN_SIZE;
 
 /// What is measured of a case, and can go wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -82,8 +81,8 @@ pub struct Row {
     pub mean: Option<f64>,
 }
 
-/// How many forms are measured; the film itself comes before them.
-const FORMS: usize = 3;
+/// The forms measured, each as it usually is; the film itself comes before them.
+const FORMS: [BakedAs; 3] = [BakedAs::Direct, BakedAs::Structured, BakedAs::Plain];
 
 /// A process with its hard cases, and what the film makes of them.
 struct Subject {
@@ -116,9 +115,9 @@ struct Measured {
 ///
 /// # Errors
 /// If the process does not compile, or the card cannot develop.
-pub fn rows(process: &Process, card: Option<&Card>, baker: &dyn Baker, progress: impl Fn()) -> Result<Vec<Row>> {
+pub fn rows(process: &Process, card: Option<&Card>, progress: impl Fn()) -> Result<Vec<Row>> {
     let look = process.look()?;
-    let forms = forms(&look, baker)?;
+    let forms = FORMS.iter().map(|form| Form::baked(&look, &Recipe::of(*form))).collect::<Result<Vec<_>>>()?;
     progress();
     let subject = Subject::new(process, look, &forms)?;
     let mut rows = subject.of_film();
@@ -138,24 +137,12 @@ pub fn rows(process: &Process, card: Option<&Card>, baker: &dyn Baker, progress:
 }
 
 /// How often [`rows`] calls its `progress`.
-pub const STEPS: usize = 2 + FORMS;
-
-/// The forms as they usually are.
-fn forms(look: &Look, baker: &dyn Baker) -> Result<[Form; FORMS]> {
-    let film = look.film()?;
-    let shaper = PlainShaper::Fitted { stops: None };
-    let plain = PlainTable { size: PLAIN_SIZE, shaper, entries: Entries::Sampled };
-    Ok([
-        Form::Direct(Box::new(film.direct(&DirectSettings::default())?)),
-        Form::Structured(Box::new(film.structured(&StructuredSettings::default())?)),
-        Form::Plain(plain.bake(look, baker)?),
-    ])
-}
+pub const STEPS: usize = 2 + FORMS.len();
 
 impl Subject {
     fn new(process: &Process, look: Look, forms: &[Form]) -> Result<Self> {
         let film = look.film()?;
-        let mut cases = general(process.input_space)?;
+        let mut cases = general(process.spaces().input_space)?;
         cases.extend([hard_inputs::steepest(film), hard_inputs::dense(film)]);
         for form in forms {
             match form {
@@ -166,8 +153,8 @@ impl Subject {
                 Form::Direct(_) => {}
             }
         }
-        let luminance = process.output_space.space().to_xyz()?.row(1).transpose();
-        let name = format!("{}, {} aim", process.name(), process.aim.word());
+        let luminance = process.spaces().output_space.space().to_xyz()?.row(1).transpose();
+        let name = format!("{}, {} aim", process.name(), process.aim().word());
         let strands = cases.iter().flat_map(|case| &case.strands);
         let colours: Vec<[f32; 3]> = strands.flat_map(|strand| &strand.colours).copied().collect();
         let linear = colours.par_iter().map(|rgb| look.develop_linear(rgb.map(f64::from))).collect();

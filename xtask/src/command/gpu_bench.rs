@@ -25,14 +25,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     use std::fmt::Write as _;
 
     use crate::atomic_file::write_whole;
-    use crate::baker::Runner;
     use crate::folders;
 
     let folder = match &arguments.out {
         Some(folder) => folders::make(folder)?,
         None => folders::output("")?,
     };
-    let found = onelight_benches::gpu::measure(arguments.software, &Runner)?;
+    let found = onelight_benches::gpu::measure(arguments.software)?;
     let json = found.json();
     let path = folder.join("gpu.json");
     write_whole(&path, |file| Ok(serde_json::to_writer_pretty(file, &json)?))?;

@@ -10,8 +10,8 @@ use clap::Args;
 use onelight::Process;
 use onelight_benches::report::{self, Elsewhere, Listener, Scope};
 
+use super::certify::with_films;
 use crate::atomic_file::WholeSet;
-use crate::baker::Runner;
 use crate::look::LookArguments;
 use crate::progress::{Clock, bars};
 use crate::{Report, folders};
@@ -51,7 +51,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let bars = bars();
     let time = |part, taken| clock.borrow_mut().add(part, taken);
     let listener = Listener { progress: &bars, time: &time };
-    let found = report::measure(&processes(&arguments.look)?, scope, elsewhere, &Runner, listener)?;
+    let found = report::measure(&processes(&arguments.look)?, scope, elsewhere, listener)?;
     let clock = clock.into_inner();
     let found = found.with_clock(clock.sentence());
     let mut files = WholeSet::in_folder(&folder);
@@ -97,11 +97,10 @@ fn text_of(path: &Path) -> Result<Option<(String, String)>> {
 
 /// The look asked for; without a word about films, the default negative and a reversal film.
 fn processes(arguments: &LookArguments) -> Result<Vec<Process>> {
-    let process = arguments.process()?;
+    let process = arguments.chosen()?.process;
     if arguments.names_film() {
         return Ok(vec![process]);
     }
-    let Process { camera, print, .. } = Process::for_camera(REVERSAL)?;
-    let reversal = Process { camera, print, ..process.clone() };
+    let reversal = with_films(&process, (REVERSAL.to_owned(), None), |_| {})?;
     Ok(vec![process, reversal])
 }

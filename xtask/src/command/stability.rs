@@ -7,9 +7,8 @@ use clap::Args;
 use onelight::{Process, StockKind, stock, stock_ids};
 use onelight_benches::stability::{Card, Contents, STEPS, rows as measured};
 
-use super::certify;
+use super::certify::{of_the_readme, with_films};
 use crate::atomic_file::WholeSet;
-use crate::baker::Runner;
 use crate::look::LookArguments;
 use crate::progress::{Clock, bar};
 use crate::{Report, folders};
@@ -40,7 +39,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let progress = bar("measuring", (processes.len() * STEPS) as u64);
     let mut rows = Vec::new();
     for process in &processes {
-        rows.extend(clock.time("measure", || measured(process, card.as_ref(), &Runner, || progress.inc(1)))?);
+        rows.extend(clock.time("measure", || measured(process, card.as_ref(), || progress.inc(1)))?);
     }
     progress.finish_and_clear();
     let contents = Contents { card: card.as_ref().map(|card| card.name().to_owned()), rows: &rows };
@@ -56,77 +55,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
 
 /// The look named; else those of the README, or all.
 fn processes(arguments: &Arguments) -> Result<Vec<Process>> {
-    let base = arguments.look.process()?;
+    let base = arguments.look.chosen()?.process;
     if !arguments.all {
-        return if arguments.look.names_film() { Ok(vec![base]) } else { certify::of_the_readme(&base) };
+        return if arguments.look.names_film() { Ok(vec![base]) } else { of_the_readme(&base) };
     }
     let of_kind = |kind| stock_ids().filter(move |id| stock(id).is_ok_and(|stock| stock.kind() == kind));
-    let process = |camera: &str, print: Option<&str>| {
-        let (camera, print) = (camera.to_owned(), print.map(str::to_owned));
-        Process { camera, print, ..base.clone() }
-    };
+    let process =
+        |camera: &str, print: Option<&str>| with_films(&base, (camera.to_owned(), print.map(str::to_owned)), |_| {});
     let reversal = of_kind(StockKind::Reversal).map(|camera| process(camera, None));
     let negatives = of_kind(StockKind::Negative)
         .flat_map(|camera| of_kind(StockKind::Print).map(move |print| (camera, print)))
         .map(|(camera, print)| process(camera, Some(print)));
-    Ok(reversal.chain(negatives).collect())
-}
-
-#[cfg(test)]
-mod tests {
-    use onelight::{TransferCurve, WorkingSpace};
-    use onelight_benches::stability::{Quantity, Row, limit};
-
-    use super::*;
-
-    /// Everything, and no limit broken.
-    fn kept(process: &Process) -> Vec<Row> {
-        let rows = measured(process, None, &Runner, || ()).unwrap();
-        for row in &rows {
-            for (quantity, worst) in &row.found {
-                let most = limit(row, *quantity).unwrap_or(f64::INFINITY);
-                assert!(worst.value <= most, "{quantity:?}: {} of {most} at {:?} of {row:?}", worst.value, worst.at);
-            }
-        }
-        rows
-    }
-
-    fn worst(rows: &[Row], form: &str, quantity: Quantity) -> f64 {
-        let of_form = rows.iter().filter(|row| row.form == form);
-        let found = of_form.flat_map(|row| &row.found).filter(|(q, _)| *q == quantity).map(|(_, worst)| worst.value);
-        found.reduce(f64::max).unwrap_or_else(|| panic!("no {quantity:?} of {form}"))
-    }
-
-    #[test]
-    fn hard_inputs_break_no_limit_on_a_negative() {
-        let rows = kept(&Process::default());
-        // What was measured is not nothing.
-        for form in ["direct", "structured", "plain"] {
-            assert!(
-                worst(&rows, form, Quantity::Rounding) > 1e-7 && worst(&rows, form, Quantity::Film) > 0.01,
-                "{form}"
-            );
-            assert!(
-                worst(&rows, form, Quantity::Vectors) > 1e-7 && worst(&rows, form, Quantity::Step) > 10.0,
-                "{form}"
-            );
-        }
-        assert!(worst(&rows, "film", Quantity::Step) > 10.0);
-        // Above the certificates' figures on these films only where the plain table has ended.
-        assert!(worst(&rows, "structured", Quantity::Film) < 0.3 && worst(&rows, "plain", Quantity::Film) < 1.0);
-        assert!(worst(&rows, "plain past its end", Quantity::Film) > 1.0);
-        let colours: usize = rows.iter().filter(|row| row.form == "film").map(|row| row.colours).sum();
-        assert!(colours > 50_000, "{colours}");
-        assert!(rows.iter().all(|row| row.colours > 0));
-    }
-
-    #[test]
-    fn hard_inputs_break_no_limit_in_other_spaces() {
-        kept(&Process {
-            input_space: WorkingSpace::AcesCg,
-            output_space: WorkingSpace::P3,
-            output_coding: TransferCurve::Gamma24,
-            ..Process::for_camera("kodak-ektachrome-100").unwrap()
-        });
-    }
+    reversal.chain(negatives).collect()
 }

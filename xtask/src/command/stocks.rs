@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use clap::Args;
 use onelight::film::{ExposureAxis, Origin, PerLayer, SpectralSensitivity};
-use onelight::{Process, Stock, StockKind, stock, stock_ids};
+use onelight::{FilmProcess, Printing, Process, Stock, StockKind, stock, stock_ids};
 use onelight_benches::sheet_fidelity;
 use serde_json::{Value, json};
 
@@ -128,8 +128,8 @@ fn check() -> Result<(String, Value)> {
             StockKind::Reversal => compile(Process::for_camera(id)?),
             StockKind::Negative => {
                 for print in of_kind(StockKind::Print) {
-                    let (camera, print) = (id.to_owned(), Some(print.to_owned()));
-                    compile(Process { camera, print, ..Process::default() });
+                    let (camera, print) = (id.into(), Some(Printing::on(print)));
+                    compile(Process::from(FilmProcess { camera, print, ..Default::default() }));
                 }
             }
             StockKind::Print => {}

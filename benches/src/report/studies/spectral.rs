@@ -100,12 +100,12 @@ pub(super) fn exposure(prepared: &Prepared, colours: &Colours) -> Result<Vec<Exp
 
 /// Response of each layer to each primary of the process's basis, by the trapezoid rule on every `step_nm`-th wavelength.
 fn sensors(prepared: &Prepared, step_nm: u16) -> Result<Matrix3<f64>> {
-    let basis = Basis::new(prepared.process.reconstruction)?;
+    let basis = Basis::new(prepared.process.film()?.reconstruction)?;
     let visible = SpectralShape::VISIBLE;
     let shape = SpectralShape::new(visible.first_nm() as u16, visible.last_nm() as u16, step_nm)?;
     let weights: Vec<f64> = shape.trapezoid_weights_nm().collect();
     let mut sensors = Matrix3::zeros();
-    for (i, layer) in stock(&prepared.process.camera)?.sensitivity().to_array().into_iter().enumerate() {
+    for (i, layer) in stock(prepared.process.film()?.camera.id())?.sensitivity().to_array().into_iter().enumerate() {
         let sensitivity = layer.on(visible, Tail::LogLinear)?;
         for k in 0..3 {
             let light = basis.reflectance(k).iter().zip(basis.white().values());

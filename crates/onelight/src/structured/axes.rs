@@ -58,18 +58,18 @@ impl Axes {
     }
 
     /// The second stage of the table's form.
-    pub(super) fn mix(&self) -> Option<Mix> {
-        let Last::Print { matrix, offset, axes, .. } = &self.last else { return None };
+    pub(super) fn mix(&self) -> Result<Option<Mix>, Error> {
+        let Last::Print { matrix, offset, axes, .. } = &self.last else { return Ok(None) };
         let axes = axes.as_ref().as_ref().to_array();
         let ends = |pick: fn(&PrintAxis) -> f64| axes.map(|axis| pick(axis) as f32);
-        let domain = Domain::new(ends(|axis| axis.from), ends(|axis| axis.to)).ok()?;
+        let domain = Domain::new(ends(|axis| axis.from), ends(|axis| axis.to))?;
         let point = |i: usize| {
             let t = i as f64 / (CURVE_POINTS - 1) as f64;
             axes.map(|axis| axis.coordinate(axis.from + t * (axis.to - axis.from)) as f32)
         };
-        let curves = Lut1d::new(domain, (0..CURVE_POINTS).map(point).collect()).ok()?;
+        let curves = Lut1d::new(domain, (0..CURVE_POINTS).map(point).collect())?;
         let matrix = std::array::from_fn(|i| std::array::from_fn(|k| matrix[(i, k)] as f32));
-        Some(Mix { matrix, offset: std::array::from_fn(|i| offset[i] as f32), curves })
+        Ok(Some(Mix { matrix, offset: std::array::from_fn(|i| offset[i] as f32), curves }))
     }
 
     /// What lies at a coordinate of each axis: dye in the camera film, or log exposure of the print.
@@ -86,7 +86,7 @@ impl Axes {
     pub(super) fn amounts(&self, places: [f64; 3]) -> PerLayer<DyeAmount> {
         let amounts = match &self.last {
             Last::Camera { .. } => places,
-            Last::Print { offset, inverse, .. } => (inverse * (Vector3::from(places) - offset)).data.0[0],
+            Last::Print { offset, inverse, .. } => (inverse * (Vector3::from(places) - offset)).into(),
         };
         PerLayer::from(amounts).map(DyeAmount)
     }

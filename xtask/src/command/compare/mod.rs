@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::Args;
-use onelight::Process;
+use onelight::ProcessKeys;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -126,7 +126,7 @@ impl Draft {
 
 fn draft(darkroom: &mut Darkroom, frame: &Frame, sheet: &Sheet, chart: &[[f64; 3]]) -> Result<Draft> {
     let developed: Vec<Developed> = sheet.shots.iter().map(|shot| darkroom.develop(frame, shot)).collect();
-    let looks: Vec<_> = sheet.shots.iter().map(|shot| darkroom.look(&shot.process).ok()).collect();
+    let looks: Vec<_> = sheet.shots.iter().map(|shot| darkroom.look(&shot.keys).ok()).collect();
     let made: Result<Vec<(Tile, Option<Row>)>> = (0..sheet.shots.len())
         .into_par_iter()
         .map(|i| {
@@ -170,7 +170,7 @@ fn draft(darkroom: &mut Darkroom, frame: &Frame, sheet: &Sheet, chart: &[[f64; 3
 }
 
 fn bands(darkroom: &mut Darkroom) -> Result<Section> {
-    let look = darkroom.look(&Process::default()).map_err(anyhow::Error::msg)?;
+    let look = darkroom.look(&ProcessKeys::default()).map_err(anyhow::Error::msg)?;
     let (tiles, bands) = banding::tiles(&look)?;
     let title = "Banding of frame buffers before the film".to_owned();
     let row = |band: &banding::Band| Row {
@@ -221,7 +221,7 @@ mod tests {
         for sheet in plan::sheets().unwrap() {
             for shot in sheet.shots.iter().filter(|shot| shot.ev == 0) {
                 let Some(beside) = shot.beside else { continue };
-                let (plain, turned) = (darkroom.look(&sheet.shots[beside].process), darkroom.look(&shot.process));
+                let (plain, turned) = (darkroom.look(&sheet.shots[beside].keys), darkroom.look(&shot.keys));
                 let (Ok(plain), Ok(turned)) = (plain, turned) else { continue };
                 let Distance { mean, p95, max } = on_chart(&plain, &turned, &chart).unwrap();
                 let row = format!("| {} | {mean:.2} | {p95:.2} | {max:.2} |", shot.caption);

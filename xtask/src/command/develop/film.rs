@@ -3,10 +3,11 @@
 use anyhow::Result;
 use clap::ValueEnum;
 use indicatif::ProgressBar;
-use onelight::{Look, Process};
+use onelight::Look;
+use onelight::baked::{self, Baked, Recipe};
 use rayon::prelude::*;
 
-use crate::compiled::{self, Compiled, Recipe};
+use crate::look::ChosenLook;
 use crate::picture::Band;
 
 /// How the film is computed.
@@ -27,26 +28,26 @@ pub(crate) enum Film {
     /// The exact film, float64.
     Exact(Box<Look>),
     /// What was baked of it.
-    Compiled(Box<Compiled>),
+    Baked(Box<Baked>),
 }
 
 impl Film {
-    pub(crate) fn new(process: &Process, form: Form) -> Result<Self> {
-        let film = process.look()?;
+    pub(crate) fn new(look: &ChosenLook, form: Form) -> Result<Self> {
+        let film = look.look()?;
         let form = match form {
             Form::Reference => return Ok(Self::Exact(Box::new(film))),
-            Form::Plain => compiled::Form::Plain,
-            Form::Structured => compiled::Form::Structured,
-            Form::Direct => compiled::Form::Direct,
+            Form::Plain => baked::Form::Plain,
+            Form::Structured => baked::Form::Structured,
+            Form::Direct => baked::Form::Direct,
         };
-        Ok(Self::Compiled(Box::new(Compiled::new(&film, process, &Recipe::usual(form), None)?)))
+        Ok(Self::Baked(Box::new(film.baked(&Recipe::of(form))?)))
     }
 
     /// Its form, in words.
     pub(super) fn describe(&self) -> String {
         match self {
             Self::Exact(_) => "reference".to_owned(),
-            Self::Compiled(compiled) => compiled.describe(),
+            Self::Baked(baked) => baked.describe(),
         }
     }
 
@@ -59,8 +60,8 @@ impl Film {
                 }
                 progress.inc(1);
             }),
-            Self::Compiled(compiled) => {
-                compiled.apply_to_slice(&mut band.rgb);
+            Self::Baked(baked) => {
+                baked.map_in_place(&mut band.rgb);
                 progress.inc(band.rows() as u64);
             }
         }
@@ -70,7 +71,7 @@ impl Film {
     pub(super) fn max(&self) -> Option<f64> {
         match self {
             Self::Exact(_) => None,
-            Self::Compiled(compiled) => compiled.max(),
+            Self::Baked(baked) => baked.max(),
         }
     }
 }

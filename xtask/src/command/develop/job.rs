@@ -4,8 +4,8 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 use indicatif::ProgressBar;
+use onelight::TransferCurve;
 use onelight::spectra::Chromaticity;
-use onelight::{Process, TransferCurve};
 use rayon::prelude::*;
 
 use super::bands::{Busy, look_through, pass};
@@ -13,6 +13,7 @@ use super::exposure::{Exposure, Meter};
 use super::film::Film;
 use super::light::{InputPrimaries, Light};
 use crate::exposure::SceneExposure;
+use crate::look::ChosenLook;
 use crate::picture::{
     Band, BandSink, Bits, Chromaticities, Coding, ColourTag, Description, Limits, open, write_exr_bands,
     write_png_bands,
@@ -20,7 +21,7 @@ use crate::picture::{
 
 /// Everything that decides how a picture is developed; the same for all pictures of a run.
 pub(super) struct Settings {
-    pub(super) process: Process,
+    pub(super) look: ChosenLook,
     pub(super) film: Film,
     pub(super) exposure: Exposure,
     /// What camera and frame buffer make of a picture's numbers.
@@ -72,11 +73,12 @@ pub(super) const DIGEST_KEY: &str = "onelight job";
 /// One sentence that starts with the path it is about; then `output` is as it was before.
 pub(super) fn develop_picture(settings: &Settings, order: &Order<'_>, progress: &ProgressBar) -> Result<Developed> {
     let input = order.input;
-    let Settings { process, film, exposure, input_primaries, target, .. } = settings;
+    let Settings { look, film, exposure, input_primaries, target, .. } = settings;
     let mut picture = open(input, &settings.limits)?;
     let description = picture.description().clone();
     let mut notes = description.notes.clone();
-    let light = Light::new(&description, process, settings.input_coding, *input_primaries, &settings.scene, &mut notes);
+    let light =
+        Light::new(&description, &look.process, settings.input_coding, *input_primaries, &settings.scene, &mut notes);
     let light = light.with_context(|| input.display().to_string())?;
     let height = description.height as u64;
 
@@ -105,7 +107,7 @@ pub(super) fn develop_picture(settings: &Settings, order: &Order<'_>, progress: 
         beyond += film.max().map_or(0, |max| brighter(band, max));
         film.develop(band, progress);
     };
-    let busy = write(order, *target, process, &description, |sink| pass(&mut picture, develop, sink))?;
+    let busy = write(order, *target, look, &description, |sink| pass(&mut picture, develop, sink))?;
 
     notes.extend(meter.notes(*exposure, ev));
     if beyond > 0 {
@@ -131,15 +133,16 @@ fn brighter(band: &Band, max: f64) -> usize {
 fn write<T>(
     order: &Order<'_>,
     target: Target,
-    process: &Process,
+    look: &ChosenLook,
     scene: &Description,
     fill: impl FnOnce(&mut dyn BandSink) -> Result<T>,
 ) -> Result<T> {
-    let space = process.output_space.space();
+    let spaces = look.process.spaces();
+    let space = spaces.output_space.space();
     let xy = |c: Chromaticity| [c.x as f32, c.y as f32];
     let [red, green, blue] = space.primaries.map(xy);
     let primaries = Chromaticities { red, green, blue, white: xy(space.white) };
-    let look = process.to_toml();
+    let look = look.text_in(order.output.parent().unwrap_or(Path::new("")));
     let software = format!("onelight {}", env!("CARGO_PKG_VERSION"));
     let mut texts = vec![("Software", software.as_str()), ("onelight look", look.as_str())];
     texts.extend(order.digest.map(|digest| (DIGEST_KEY, digest)));
@@ -148,7 +151,7 @@ fn write<T>(
     match target {
         Target::Exr => write_exr_bands(path, &picture, &texts, fill),
         Target::Png(bits) => {
-            let coding = match process.output_coding {
+            let coding = match spaces.output_coding {
                 TransferCurve::Srgb => Coding::Srgb,
                 TransferCurve::Gamma24 => Coding::Gamma24,
                 TransferCurve::Linear => Coding::Linear,

@@ -43,14 +43,14 @@ impl Light {
         notes: &mut Vec<String>,
     ) -> Result<Self> {
         let to_input = if picture.primaries.is_some() && primaries == InputPrimaries::OfLook {
-            let space = process.input_space.word();
+            let space = process.spaces().input_space.word();
             notes.push(format!("the file's own chromaticities give way to --input-space {space}"));
             None
         } else {
             scene_colours::to_input_space(picture.primaries.as_ref(), process)?
         };
         let coding = coding_of(picture, coding, notes);
-        let to_xyz = process.input_space.space().with_white(Chromaticity::black_body_6500_k()).to_xyz();
+        let to_xyz = process.spaces().input_space.space().with_white(Chromaticity::black_body_6500_k()).to_xyz();
         let to_xyz = to_xyz.context("the input space")?;
         let luminance = (to_xyz * to_input.unwrap_or_else(Matrix3::identity)).row(1).transpose();
         notes.extend(scene.notes.iter().cloned());

@@ -97,22 +97,23 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
             arguments.output.display()
         );
     }
-    let mut process = arguments.look.process()?;
+    let mut look = arguments.look.chosen()?;
+    let spaces = look.process.spaces_mut();
     let mut notes = Vec::new();
     if target == Target::Exr && arguments.bits.is_some() {
         notes.push("an EXR holds 32-bit floats: --bits is not used".to_owned());
     }
-    if target == Target::Exr && process.output_coding != TransferCurve::Linear {
-        notes.push(format!("an EXR holds linear light: not coded by {}", process.output_coding.word()));
-        process.output_coding = TransferCurve::Linear;
+    if target == Target::Exr && spaces.output_coding != TransferCurve::Linear {
+        notes.push(format!("an EXR holds linear light: not coded by {}", spaces.output_coding.word()));
+        spaces.output_coding = TransferCurve::Linear;
     }
-    let scene = arguments.camera.resolve(&process)?;
+    let scene = arguments.camera.resolve(&look)?;
     if scene.is_metered() && arguments.ev == Exposure::Auto {
         bail!("--ev auto exposes by the picture: the camera's settings change nothing, expected one or the other");
     }
     let settings = Settings {
-        film: clock.time("compile", || Film::new(&process, arguments.form))?,
-        process,
+        film: clock.time("compile", || Film::new(&look, arguments.form))?,
+        look,
         exposure: arguments.ev,
         scene,
         input_coding: arguments.input_coding,
@@ -142,7 +143,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let Developed { size, ev, notes: more, busy } = developed?;
     notes.extend(more);
 
-    let process = &settings.process;
+    let process = &settings.look.process;
     let mut text = String::new();
     let _ = writeln!(text, "{output}   {}x{}, {}, {ev:+.2} EV", size[0], size[1], process.name());
     for note in &notes {

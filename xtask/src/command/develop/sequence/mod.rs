@@ -78,7 +78,7 @@ pub(super) fn run(
     });
     display.finish();
     let failed = outcomes.iter().filter(|outcome| matches!(outcome, Outcome::Failed(_))).count();
-    let report = summary.report(&settings.process, &frames, &outcomes, &clock);
+    let report = summary.report(&settings.look.process, &frames, &outcomes, &clock);
     if failed > 0 {
         crate::finish::print(&report)?;
         bail!("{failed} of {} frames were not developed", frames.len());
