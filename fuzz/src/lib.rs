@@ -5,7 +5,7 @@
 
 /// `look.toml`, as far as the film at work.
 pub mod look;
-/// Text files of tables: `.cube`, CLF, `.spi3d`, and our KTX2 as others read it.
+/// Text files of tables and forms: `.cube`, CLF, `.spi3d`, the JSON of a direct form, and our KTX2 as others read it.
 pub mod lut;
 /// Pictures: OpenEXR, PNG, TIFF, whole.
 pub mod picture;

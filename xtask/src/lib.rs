@@ -2,8 +2,6 @@
 
 mod atomic_file;
 mod command;
-mod direct_file;
-mod export;
 mod exposure;
 mod finish;
 mod folders;
@@ -67,8 +65,15 @@ pub fn main() -> ExitCode {
     let printed = run(Arguments::parse().command).and_then(|report| print(&report));
     let Err(error) = printed else { return ExitCode::SUCCESS };
     // Where even this cannot be written, only the status is left to tell.
-    let _ = writeln!(io::stderr(), "error: {error:#}");
+    let _ = writeln!(io::stderr(), "error: {error:#}{}", hint(&error));
     ExitCode::from(2)
+}
+
+/// Where a name that does not exist is looked up.
+fn hint(error: &anyhow::Error) -> &'static str {
+    let unknown = |cause: &onelight::Error| cause.is_unknown_stock();
+    let found = error.chain().any(|cause| cause.downcast_ref().is_some_and(unknown));
+    if found { " (`cargo xtask stocks` lists all)" } else { "" }
 }
 
 fn run(command: Command) -> Result<Report> {

@@ -49,8 +49,16 @@ impl Domain {
         (self.min == [min; 3] && self.max == [max; 3]).then_some([min, max])
     }
 
-    /// Moves the domain onto `[0, 1]`; inputs outside it end up outside.
-    pub(crate) fn normalise(&self, rgb: [f32; 3]) -> [f32; 3] {
+    /// Where each channel of a colour lies in the domain: 0 at its minimum, 1 at its maximum.
+    ///
+    /// Inputs outside the domain give numbers outside 0 to 1, NaN gives NaN.
+    ///
+    /// ```
+    /// let domain = onelight_lut::Domain::common(-1.0, 3.0)?;
+    /// assert_eq!(domain.normalise([-1.0, 0.0, 5.0]), [0.0, 0.25, 1.5]);
+    /// # Ok::<(), onelight_lut::Error>(())
+    /// ```
+    pub fn normalise(&self, rgb: [f32; 3]) -> [f32; 3] {
         std::array::from_fn(|c| (rgb[c] - self.min[c]) / (self.max[c] - self.min[c]))
     }
 }

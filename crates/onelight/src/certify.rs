@@ -21,13 +21,12 @@ use onelight_lut::{Certificate, ColourSet, Law, Maps, Samples, Search, certify};
 use onelight_spectra::{Basis, Chromaticity, DisplayDifference, Reconstruction, color_checker};
 use serde::Serialize;
 
-use crate::baked::{Baked, BakedForm};
 use crate::error::Error;
 use crate::look::Look;
 use crate::scene::{MID_GREY, multiply};
 use crate::word::WorkingSpace;
 
-/// What [`Look::certify`] looks at.
+/// Which colours a certificate looks at, and how hard.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertifySettings {
     /// Which colours, over which exposures.
@@ -42,11 +41,20 @@ impl Default for CertifySettings {
     }
 }
 
+/// The colours that a map can take.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Gamut {
+    /// Those within sRGB's primaries: a plain table holds what is inside of its own.
+    Srgb,
+    /// Those within Rec.2020's primaries too.
+    Wide,
+}
+
 /// What was found of a baked look; CIEDE2000 from the exact one. As text it is a few lines for people.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Certified {
-    /// On colours within sRGB.
+    /// On colours within sRGB's primaries.
     pub srgb: Certificate,
     /// On colours within Rec.2020; `None` for plain tables, which hold what is inside their own primaries only.
     pub rec2020: Option<Certificate>,
@@ -57,7 +65,7 @@ pub struct Certified {
 /// The tint that a look gives to greys: chroma C* of CIELAB.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Tint {
-    /// Of 18 % grey.
+    /// C* of an 18 % grey card.
     pub mid_grey: f64,
     /// The largest of all greys from -10 to +10 stops.
     pub largest: f64,
@@ -68,29 +76,10 @@ pub struct Tint {
 /// Mean and largest difference over a range of exposures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeanAndMax {
-    /// Mean of all colours.
+    /// Mean difference of all colours, CIEDE2000.
     pub mean: f64,
-    /// The largest.
+    /// The largest difference found, CIEDE2000.
     pub max: f64,
-}
-
-impl Look {
-    /// Measures a baked form of this look.
-    ///
-    /// ```no_run
-    /// use onelight::baked::Recipe;
-    /// let look = onelight::Process::default().look()?;
-    /// let baked = look.baked(&Recipe::cube(33))?;
-    /// let report = look.certify(&baked, &Default::default())?;
-    /// assert!(report.srgb.overall.mean < 0.1);
-    /// # Ok::<(), onelight::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// If the settings are out of range.
-    pub fn certify(&self, baked: &Baked, settings: &CertifySettings) -> Result<Certified, Error> {
-        Certifier::new(self)?.certified(baked, |rgb| baked.apply(rgb), settings)
-    }
 }
 
 /// A look with all that measuring several forms against it needs.
@@ -171,25 +160,24 @@ impl<'a> Certifier<'a> {
         Ok(certify(samples, &maps, search, |_| {})?)
     }
 
-    /// Measures a baked look as `map` applies it: from memory, or as a file of it is read back.
+    /// All that is said of a map (the look's input space to display-coded): what [`Look::certify`] says of a baked look.
     ///
     /// # Errors
-    /// As [`Look::certify`].
-    pub fn certified(
+    /// If the settings are out of range, or a result of the map is not finite.
+    pub fn report(
         &self,
-        baked: &Baked,
         map: impl Fn([f32; 3]) -> [f32; 3] + Sync,
+        gamut: Gamut,
         settings: &CertifySettings,
     ) -> Result<Certified, Error> {
         let CertifySettings { law, search } = settings;
         let srgb = self.certify(&self.samples(law, WorkingSpace::Srgb)?, &map, *search)?;
-        // A plain table takes what is inside its own primaries only.
-        let rec2020 = match baked.form() {
-            BakedForm::Structured(_) | BakedForm::Direct(_) => {
+        let rec2020 = match gamut {
+            Gamut::Wide => {
                 let samples = self.samples(law, WorkingSpace::Rec2020)?;
                 Some(self.certify_in(WorkingSpace::Rec2020, &samples, &map, *search)?)
             }
-            BakedForm::Plain(_) | BakedForm::Coded { .. } => None,
+            Gamut::Srgb => None,
         };
         Ok(Certified { srgb, rec2020, tint: self.tint() })
     }

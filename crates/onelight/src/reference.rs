@@ -33,7 +33,7 @@ pub struct Reference {
     about: About,
 }
 
-/// What printing adds.
+/// What printing adds to the camera film.
 #[derive(Debug, Clone)]
 struct PrintStep {
     duplication: LitDuplication,

@@ -60,7 +60,7 @@ mod tests {
             assert_eq!(nearest(found, stock_ids()), None, "{found}");
             assert_eq!(
                 stock(found).unwrap_err().to_string(),
-                format!("no stock is called {found:?} (`cargo xtask stocks` lists all)")
+                format!("no stock is called {found:?}, expected a maker and a number, such as kodak-5207")
             );
         }
     }

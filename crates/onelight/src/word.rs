@@ -56,14 +56,14 @@ pub(crate) use words;
 /// The RGB spaces that pictures come and go in: primaries only, (1, 1, 1) is always white.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum WorkingSpace {
-    /// sRGB and BT.709.
+    /// sRGB's, which are those of BT.709 (\[IEC61966-2-1\]).
     #[default]
     Srgb,
-    /// Display P3.
+    /// Display P3's: those of film projection with a display's white.
     P3,
-    /// BT.2020.
+    /// BT.2020's, for ultra high definition television.
     Rec2020,
-    /// ACEScg (AP1).
+    /// ACEScg's (AP1), wide enough for rendering.
     AcesCg,
 }
 
@@ -136,11 +136,11 @@ words! {
         TransferCurve::Linear = "linear" "light itself";
 }
 
-/// For `#[serde(with = "word::text")]`.
+/// Choices as their words in text, by `#[serde(with = "word::text")]`.
 pub(crate) mod text {
     use serde::{Deserialize, Deserializer, Serializer, de};
 
-    use super::Word;
+    use crate::word::Word;
 
     pub(crate) fn serialize<T: Word, S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(value.word())

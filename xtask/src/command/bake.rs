@@ -3,14 +3,13 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
-use onelight::baked::{Baked, BakedForm, Form, Recipe, ShaperChoice, smallest_under};
-use onelight::certify::{Certifier, Tint, in_words, summary};
+use onelight::baked::{AsWritten, Baked, FileFormat, Form, Recipe, ShaperChoice, smallest_under};
+use onelight::certify::{Certifier, Gamut, Tint, in_words, summary};
 use onelight::lut::{Certificate, Deviation, Law, Search, Storage, deviation};
 use onelight::{DirectSettings, Entries, Look, Nodes, Process, TableCoding, TransferCurve, Word, WorkingSpace};
 use serde_json::json;
 
 use crate::atomic_file::WholeSet;
-use crate::export::{Applied, Export, Format};
 use crate::look::LookArguments;
 use crate::progress::{Clock, bar};
 use crate::words::words;
@@ -45,8 +44,8 @@ pub(crate) struct Arguments {
     #[arg(long, default_value = "density", value_parser = words::<TableCoding>())]
     coding: TableCoding,
     /// Files to write, comma-separated [default: cube for plain, clf for structured]
-    #[arg(long, value_delimiter = ',', value_name = "FORMATS")]
-    format: Vec<Format>,
+    #[arg(long, value_delimiter = ',', value_name = "FORMATS", value_parser = words::<FileFormat>())]
+    format: Vec<FileFormat>,
     /// Exponentials of the direct form: of the projection, and of the print's exposure [default: 10,5]
     #[arg(long, value_name = "P[,D]", value_parser = nodes)]
     nodes: Option<Nodes>,
@@ -90,12 +89,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         None => folders::output(&process.name())?,
     };
     let measured_line = measured.as_ref().map(|measured| summary(measured.srgb()));
-    let export = Export { baked: &baked, comments: baked.comments(measured_line.as_deref()) };
+    let comments = baked.comments(measured_line.as_deref());
     let mut files = WholeSet::in_folder(&folder);
     let mut json = json(arguments, process, &recipe, &baked, measured.as_ref());
     clock.time("write", || -> Result<()> {
         for format in &formats {
-            export.add(*format, &mut files)?;
+            for file in baked.files(*format, &comments)? {
+                files.add(file.name, file.bytes);
+            }
         }
         files.add("look.toml", look.text_in(&folder).into_bytes());
         if !arguments.quick {
@@ -182,26 +183,42 @@ fn recipe(arguments: &Arguments, film: &Look) -> Result<Recipe> {
 /// The size that a format or an engine expects, where it expects one.
 fn usual_size(arguments: &Arguments, usual: usize) -> usize {
     match arguments.format.as_slice() {
-        [Format::Hald] => 64,
-        [Format::Strip] => 32,
+        [FileFormat::Hald] => 64,
+        [FileFormat::Strip] => 32,
         _ if arguments.shaper == ShaperChoice::Bevy => 64,
         _ => usual,
     }
 }
 
-fn formats(arguments: &Arguments, form: Form) -> Result<Vec<Format>> {
-    let mut formats = if arguments.format.is_empty() { vec![Format::usual(form)] } else { arguments.format.clone() };
-    formats.dedup();
-    match formats.iter().find(|format| !format.holds(form)) {
-        Some(format) => Err(format.cannot_hold(form)),
-        None => Ok(formats),
+fn formats(arguments: &Arguments, form: Form) -> Result<Vec<FileFormat>> {
+    let mut formats = arguments.format.clone();
+    if formats.is_empty() {
+        formats.push(FileFormat::usual(form));
     }
+    formats.dedup();
+    if let Some(format) = formats.iter().find(|format| !format.holds(form)) {
+        let other = if *format == FileFormat::Json { Form::Direct } else { Form::Plain };
+        bail!(
+            "--format {} cannot hold the {} form, expected {}, or --form {}",
+            format.word(),
+            form.word(),
+            FileFormat::usual(form).word(),
+            other.word()
+        );
+    }
+    if let Some(format) = formats.iter().find(|format| format.needs_coding() && !arguments.shaper.is_coding()) {
+        bail!(
+            "--format {} holds no shaper for scene-linear light, expected a coding such as --shaper srgb",
+            format.word()
+        );
+    }
+    Ok(formats)
 }
 
 /// Certificates of the files' numbers as written, and the deviation on the user's own pictures.
 struct Measured {
     /// By format, in the order asked for.
-    files: Vec<(Format, Certificate)>,
+    files: Vec<(FileFormat, Certificate)>,
     rec2020: Option<Certificate>,
     scene: Option<Deviation>,
     /// Of the look itself.
@@ -209,26 +226,25 @@ struct Measured {
 }
 
 impl Measured {
-    fn new(film: &Look, baked: &Baked, formats: &[Format], scene: Option<&[[f64; 3]]>) -> Result<Self> {
+    fn new(film: &Look, baked: &Baked, formats: &[FileFormat], scene: Option<&[[f64; 3]]>) -> Result<Self> {
         let measure = Certifier::new(film)?;
-        let export = Export { baked, comments: Vec::new() };
         let samples = measure.samples(&Law::default(), WorkingSpace::Srgb)?;
         let mut written = Vec::new();
         for &format in formats {
-            written.push(export.as_written(format)?);
+            written.push(baked.as_written(format)?);
         }
         let mut files = Vec::new();
         for (&format, written) in formats.iter().zip(&written) {
-            files.push((format, measure.certify(&samples, written, Search::Ascent)?));
+            files.push((format, measure.certify(&samples, |rgb| written.apply(rgb), Search::Ascent)?));
         }
         let first = &written[0];
-        // A plain table takes what is inside its own primaries only.
-        let rec2020 = match baked.form() {
-            BakedForm::Structured(_) | BakedForm::Direct(_) => {
+        let rec2020 = match baked.gamut() {
+            Gamut::Wide => {
                 let samples = measure.samples(&Law::default(), WorkingSpace::Rec2020)?;
-                Some(measure.certify_in(WorkingSpace::Rec2020, &samples, first, Search::Ascent)?)
+                let map = |rgb| first.apply(rgb);
+                Some(measure.certify_in(WorkingSpace::Rec2020, &samples, map, Search::Ascent)?)
             }
-            BakedForm::Plain(_) | BakedForm::Coded { .. } => None,
+            Gamut::Srgb => None,
         };
         let scene = scene.map(|colours| on_scene(film, first, colours)).transpose()?;
         Ok(Self { files, rec2020, scene, tint: measure.tint() })
@@ -269,9 +285,9 @@ fn baked(film: &Look, recipe: &Recipe, scene: Option<&[[f64; 3]]>) -> Result<Bak
     Ok(scene.map_or_else(|| film.baked(recipe), |colours| film.baked_for_scene(recipe, colours))?)
 }
 
-fn on_scene(film: &Look, written: &Applied, colours: &[[f64; 3]]) -> Result<Deviation> {
+fn on_scene(film: &Look, written: &AsWritten, colours: &[[f64; 3]]) -> Result<Deviation> {
     let difference = film.difference()?;
-    let table = |rgb: [f64; 3]| written(rgb.map(|v| v as f32)).map(|v| film.coding().decode(f64::from(v)));
+    let table = |rgb: [f64; 3]| written.apply(rgb.map(|v| v as f32)).map(|v| film.coding().decode(f64::from(v)));
     let between = |a: &[f64; 3], b: &[f64; 3]| difference.between(*a, *b);
     deviation(colours, |rgb| film.develop_linear(rgb), table, between).context("the scene")
 }
@@ -300,7 +316,7 @@ fn json(
     let found = json!({
         "unit": "CIEDE2000",
         "certificate": measured.srgb(),
-        "certificates": measured.files.iter().map(|(f, c)| (f.word(), json!(c))).collect::<serde_json::Map<_, _>>(),
+        "certificates": measured.files.iter().map(|(f, c)| (f.word().to_owned(), json!(c))).collect::<serde_json::Map<_, _>>(),
         "certificate_rec2020": measured.rec2020,
         "scene": measured.scene,
         "tint": { "unit": "CIELAB C*", "mid_grey": mid_grey, "largest": largest, "stops": stops },

@@ -9,7 +9,8 @@ use std::io::BufReader;
 use std::path::Path;
 use std::process::Command;
 
-use onelight::lut::{ClfProcess, CubeFile, Interpolation, SceneSampler, Shaper, read_spi3d};
+use onelight::lut::{Interpolation, SceneSampler, Shaper};
+use onelight_formats::{ClfProcess, CubeFile, spi3d};
 
 use crate::program::program;
 
@@ -89,7 +90,7 @@ fn opencolorio_gives_what_we_give() {
         bake(folder, &["--camera", camera, "--stops", "6", "--format", "cube,clf,spi3d", "--quick"]);
         let cube = CubeFile::read(open(&folder.join("look.cube"))).unwrap();
         let clf = ClfProcess::read(open(&folder.join("look.clf"))).unwrap();
-        let table = read_spi3d(File::open(folder.join("look.spi3d")).unwrap()).unwrap();
+        let table = spi3d::read(File::open(folder.join("look.spi3d")).unwrap()).unwrap();
         assert_eq!(&table, cube.lut3d().unwrap());
         let apply_cube = |rgb| cube.apply(rgb, Interpolation::Tetrahedral);
         let apply_clf = |rgb| clf.apply(rgb);

@@ -361,3 +361,75 @@ fn a_picture_is_not_replaced_by_its_own_development() {
     assert!(refused(folder.path(), &["develop", "scene.exr", "scene.exr"]).contains("another name"));
     assert!(refused(folder.path(), &["develop", "scene.exr", "./scene.exr"]).contains("another name"));
 }
+
+/// A folder with the data sheet of a built-in stock under another id.
+fn own_sheet(folder: &Path, from: &str, id: &str) {
+    let (own, built_in) = (folder.join(id), Path::new(env!("CARGO_MANIFEST_DIR")).join("../stocks").join(from));
+    fs::create_dir(&own).unwrap();
+    for name in ["stock.toml", "sensitivity.csv", "characteristic.csv", "dye_density.csv"] {
+        let text = fs::read_to_string(built_in.join(name)).unwrap();
+        fs::write(own.join(name), text.replace(&format!("id = \"{from}\""), &format!("id = \"{id}\""))).unwrap();
+    }
+}
+
+/// A small bake without a certificate, with more options.
+fn quickly<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    [&["bake", "--quick", "--size", "9"], more].concat()
+}
+
+#[test]
+fn a_data_sheet_of_ones_own_is_a_film_like_any_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    own_sheet(folder, "kodak-5207", "mine");
+    own_sheet(folder, "kodak-2383", "my-print");
+    done(folder, &quickly(&["--out", "built-in"]));
+    let said = done(folder, &quickly(&["--camera", "./mine", "--print", "my-print", "--out", "looks/own"]));
+    assert!(said.contains("mine_my-print"), "{said}");
+    // The same film under another name.
+    let table = |name: &str| {
+        let text = fs::read_to_string(folder.join(name).join("look.cube")).unwrap();
+        text.lines().filter(|line| !line.starts_with(['#', 'T'])).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(table("looks/own"), table("built-in"));
+    // Found again from where the description is.
+    let look = fs::read_to_string(folder.join("looks/own/look.toml")).unwrap();
+    assert!(look.contains("camera = \"mine\"\ncamera_sheet = \"../../mine\"\ncamera_sha256 = \""), "{look}");
+    assert!(look.contains("print_sheet = \"../../my-print\""), "{look}");
+    done(folder, &quickly(&["--look", "looks/own/look.toml", "--out", "looks/again"]));
+    assert_eq!(look, fs::read_to_string(folder.join("looks/again/look.toml")).unwrap());
+    assert_eq!(table("looks/again"), table("looks/own"));
+    // Every form.
+    for form in ["structured", "direct"] {
+        done(folder, &quickly(&["--camera", "mine", "--form", form, "--out", form]));
+    }
+    // A changed sheet is told, and taken where it is asked for.
+    let sheet = folder.join("mine/stock.toml");
+    fs::write(&sheet, fs::read_to_string(&sheet).unwrap() + "# changed\n").unwrap();
+    let changed = quickly(&["--look", "looks/own/look.toml", "--out", "looks/changed"]);
+    let sentence = refused(folder, &changed);
+    assert!(sentence.contains("has changed since") && sentence.contains("--camera"), "{sentence}");
+    done(folder, &[&changed[..], &["--camera", "mine"]].concat());
+}
+
+#[test]
+fn data_sheets_that_cannot_be_used_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    own_sheet(folder, "kodak-5207", "mine");
+    own_sheet(folder, "kodak-2383", "my-print");
+    own_sheet(folder, "fuji-velvia-50", "my-slide");
+    fs::create_dir(folder.join("empty")).unwrap();
+    let message = |arguments: &[&str]| refused(folder, &[&["bake", "--quick"], arguments].concat());
+    assert!(message(&["--camera", "./gone"]).contains("no such folder"));
+    assert!(message(&["--camera", "empty"]).contains("no stock.toml in it"));
+    assert!(message(&["--camera", "my-print"]).contains("is a print film"));
+    assert!(message(&["--camera", "my-slide", "--print", "my-print"]).contains("is a reversal film"));
+    assert!(message(&["--print", "mine"]).contains("is a camera film"));
+    assert!(message(&["--camera", "my-slide", "--points", "1,0,0"]).contains("points changes nothing"));
+    assert!(message(&["--camera", "mine", "--approach", "reinhard"]).contains("knows no film"));
+    fs::write(folder.join("mine/characteristic.csv"), "log10_exposure,red\n0,none\n").unwrap();
+    assert!(message(&["--camera", "mine"]).contains("mine/characteristic.csv"));
+    fs::remove_file(folder.join("mine/dye_density.csv")).unwrap();
+    assert!(message(&["--camera", "mine"]).contains("dye_density.csv: cannot be read"));
+}

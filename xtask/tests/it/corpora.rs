@@ -47,6 +47,7 @@ fn tables() {
     over("cube", fuzz::lut::cube);
     over("clf", fuzz::lut::clf);
     over("spi3d", fuzz::lut::spi3d);
+    over("direct_json", fuzz::lut::direct_form);
     over("ktx2", fuzz::lut::ktx2);
 }
 

@@ -69,7 +69,7 @@ impl Coordinate {
         multiply(&self.back, linear)
     }
 
-    /// The coding's name: `ACEScct`.
+    /// The coding's name for people, such as `ACEScct`.
     #[must_use]
     pub fn name(&self) -> &'static str {
         self.name

@@ -8,6 +8,7 @@ use super::coordinate::Coordinate;
 use super::recipe::{Form, Recipe, ShaperChoice};
 use super::shaper_fit::{Fitted, fitted_to};
 use crate::about::About;
+use crate::certify::{Certified, Certifier, CertifySettings, Gamut};
 use crate::direct::DirectSettings;
 use crate::error::Error;
 use crate::look::Look;
@@ -37,22 +38,22 @@ pub struct Baked {
 /// The numbers of a [`Baked`] look, by its form.
 #[derive(Debug, Clone)]
 pub enum BakedForm {
-    /// Takes scene-linear light.
+    /// A shaper and a table; takes scene-linear light.
     Plain(PlainLut),
     /// Plain too, but the light is coded before it comes.
     Coded {
         /// Display-coded entries over the coding.
         table: Lut3d,
-        /// The coding.
+        /// How scene-linear light becomes the table's coordinates.
         coordinate: Box<Coordinate>,
     },
-    /// Takes scene-linear light.
+    /// The film's curves and a table; takes scene-linear light.
     Structured(Box<StructuredLut>),
     /// Takes scene-linear light; no table.
     Direct(Box<DirectForm>),
 }
 
-/// Pixels of one task.
+/// Pixels that one task of a thread pool maps.
 const BLOCK: usize = 4096;
 /// Colours for each node that a plain table is fitted to.
 const FIT_SAMPLES_PER_NODE: usize = 4;
@@ -72,6 +73,23 @@ impl Look {
     /// If a number of the recipe is out of its range, or the look has not the film curves that the form needs.
     pub fn baked(&self, recipe: &Recipe) -> Result<Baked, Error> {
         Baked::new(self, recipe, None)
+    }
+
+    /// Measures a baked form of this look: how far it lies from the exact one, over exposures and saturations.
+    ///
+    /// ```no_run
+    /// use onelight::baked::Recipe;
+    /// let look = onelight::Process::default().look()?;
+    /// let baked = look.baked(&Recipe::cube(33))?;
+    /// let report = look.certify(&baked, &Default::default())?;
+    /// assert!(report.srgb.overall.mean < 0.1);
+    /// # Ok::<(), onelight::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If the settings are out of range.
+    pub fn certify(&self, baked: &Baked, settings: &CertifySettings) -> Result<Certified, Error> {
+        Certifier::new(self)?.report(|rgb| baked.apply(rgb), baked.gamut(), settings)
     }
 
     /// Bakes the look with the range of a plain table fitted to somebody's own colours, scene-linear RGB of the input space.
@@ -176,7 +194,7 @@ impl Baked {
         }
     }
 
-    /// The numbers.
+    /// The numbers, by their form.
     #[must_use]
     pub fn form(&self) -> &BakedForm {
         &self.form
@@ -200,6 +218,15 @@ impl Baked {
             BakedForm::Plain(lut) => Some(lut.shaper().max()),
             BakedForm::Coded { coordinate, .. } => Some(coordinate.max()),
             BakedForm::Structured(_) | BakedForm::Direct(_) => None,
+        }
+    }
+
+    /// The colours that the form takes: a plain table those inside its own primaries.
+    #[must_use]
+    pub fn gamut(&self) -> Gamut {
+        match &self.form {
+            BakedForm::Plain(_) | BakedForm::Coded { .. } => Gamut::Srgb,
+            BakedForm::Structured(_) | BakedForm::Direct(_) => Gamut::Wide,
         }
     }
 
@@ -265,7 +292,7 @@ impl Baked {
 }
 
 impl BakedForm {
-    /// The form's kind.
+    /// The kind of form, as a recipe names it.
     #[must_use]
     pub fn kind(&self) -> Form {
         match self {

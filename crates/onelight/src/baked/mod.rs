@@ -10,12 +10,16 @@
 //! ```
 
 mod coordinate;
+#[cfg(feature = "formats")]
+mod files;
 mod form;
 mod recipe;
 mod shaper_fit;
 mod smallest;
 
 pub use coordinate::Coordinate;
+#[cfg(feature = "formats")]
+pub use files::{AsWritten, BakedFile, FileFormat};
 pub use form::{Baked, BakedForm};
 pub use recipe::{Form, Recipe, ShaperChoice};
 pub use smallest::smallest_under;

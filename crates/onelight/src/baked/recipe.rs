@@ -97,7 +97,7 @@ impl ShaperChoice {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Recipe {
-    /// Table or no table.
+    /// What is made: a table, a table with curves, or curves and exponentials.
     pub form: Form,
     /// Nodes along each side of the table, 2 to [`onelight_lut::Lut3d::MAX_SIZE`]; the direct form has none.
     pub size: usize,

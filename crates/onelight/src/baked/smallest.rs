@@ -10,7 +10,7 @@ use crate::look::Look;
 use crate::structured::TableCoding;
 use crate::word::WorkingSpace;
 
-/// Sizes tried, smallest first.
+/// Nodes along each side that are tried, fewest first.
 const SIZES: [usize; 8] = [8, 12, 16, 20, 24, 32, 48, 64];
 /// Codings tried for each size, each with the storage it suits, fewest bytes first.
 const STORED: [(TableCoding, [Storage; 2]); 2] =

@@ -82,7 +82,7 @@ impl FirstApproach {
         self.curves.as_ref()
     }
 
-    /// The post-colour matrix.
+    /// The matrix on display-coded colour behind the tone curves.
     #[must_use]
     pub fn post_colour(&self) -> &PostColour {
         &self.post

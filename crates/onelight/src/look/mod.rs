@@ -34,9 +34,9 @@ use crate::reference::{Reference, no_film};
 #[derive(Debug, Clone)]
 #[expect(clippy::large_enum_variant, reason = "there is one look at a time")]
 pub enum Look {
-    /// The second approach.
+    /// The simulation of film: the second approach.
     Film(Reference),
-    /// The first approach.
+    /// The first approach: tone curves and matrices.
     First(FirstApproach),
     /// A tone mapping without film.
     Tone(ToneMapped),

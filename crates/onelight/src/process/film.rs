@@ -57,7 +57,7 @@ pub struct FilmProcess {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Printing {
-    /// The print film.
+    /// The print film: a stock of kind print.
     pub film: StockRef,
     /// Three separated beams in the printer, or a white one.
     pub light: PrinterLight,

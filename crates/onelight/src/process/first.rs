@@ -23,7 +23,7 @@ pub struct FirstProcess {
     pub print: Option<StockRef>,
     /// Equivalent neutral density of a grey card, 0.05 to 3. 0.3 more is a stop darker.
     pub neutral_density: f64,
-    /// What a hand changes.
+    /// What a hand changes of matrix and tone curve.
     pub controls: FirstControls,
     /// The RGB that comes in and goes out.
     pub spaces: ColourSpaces,

@@ -42,7 +42,7 @@ pub enum Process {
 }
 
 impl Default for Process {
-    /// [`DEFAULT_CAMERA`] printed on [`DEFAULT_PRINT`].
+    /// The simulation of [`DEFAULT_CAMERA`] printed on [`DEFAULT_PRINT`].
     fn default() -> Self {
         Self::Film(FilmProcess::default())
     }

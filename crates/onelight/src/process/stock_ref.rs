@@ -40,7 +40,7 @@ pub struct OwnSheet {
 }
 
 impl StockRef {
-    /// The stock's id: `kodak-5207`.
+    /// The stock's id, such as `kodak-5207`.
     #[must_use]
     pub fn id(&self) -> &str {
         match self {

@@ -1,4 +1,4 @@
-//! `look.toml` as text.
+//! Descriptions of looks as the text of `look.toml`.
 
 use super::keys::ProcessKeys;
 use super::version::VERSION;

@@ -15,7 +15,7 @@ const SEED: u64 = 0x666d_6178_6573_3031;
 
 /// The axes of a process: from exposure to the coordinates of the table, and from coordinates back to dye in the camera film.
 pub(super) struct Axes {
-    /// Over log2 exposure.
+    /// From log2 exposure of each layer to the first coordinates.
     pub(super) curves: Lut1d,
     last: Last,
 }

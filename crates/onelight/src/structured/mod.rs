@@ -50,13 +50,13 @@ words! {
 /// How [`Reference::structured`] makes a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StructuredSettings {
-    /// Nodes along each side.
+    /// Nodes along each side of the table, 2 to [`Lut3d::MAX_SIZE`].
     pub size: usize,
     /// How the table will be read.
     pub interpolation: Interpolation,
     /// Where its entries come from.
     pub entries: Entries,
-    /// What they are.
+    /// What the entries of the table are.
     pub coding: TableCoding,
 }
 

@@ -8,7 +8,7 @@ use onelight::{FilmProcess, Reference, Stock, Wratten, stock};
 
 pub(crate) type Curve = Box<dyn Fn(f64) -> f64>;
 
-/// What grey becomes.
+/// What an 18 % grey card becomes.
 #[derive(Clone, Copy)]
 pub(crate) enum Grey {
     Sheet,
@@ -20,7 +20,7 @@ pub(crate) struct Oracle {
     pub(crate) print: Option<Stock>,
     /// Light of scene (1, 0, 0), (0, 1, 0), (0, 0, 1) at 380..780 nm.
     pub(crate) lights: [Vec<f64>; 3],
-    /// Dye over log10 exposure.
+    /// Amount of dye over log10 exposure, by layer.
     pub(crate) film_dye: [Curve; 3],
     pub(crate) print_dye: Option<[Curve; 3]>,
     pub(crate) grey: Grey,

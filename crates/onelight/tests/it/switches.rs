@@ -95,7 +95,7 @@ fn reconstruction() {
     }
 }
 
-/// Amounts that are densities.
+/// Amounts of dye that are the sheet's densities.
 fn densities(film: &Stock) -> [Curve; 3] {
     layers(film.characteristic()).map(|curve| -> Curve {
         let curve = curve.clone();

@@ -24,7 +24,7 @@ pub(crate) fn films() -> impl Strategy<Value = (String, Option<String>)> {
     ]
 }
 
-/// Settings of the film.
+/// Films and the settings that every look has.
 fn film() -> impl Strategy<Value = FilmProcess> {
     let spaces = (word::<WorkingSpace>(), word::<WorkingSpace>(), word::<TransferCurve>());
     let numbers = (0.05..3.0, prop_oneof![Just(0.0), -10.0..10.0]);
