@@ -148,7 +148,7 @@ impl Subject {
             match form {
                 Form::Plain(lut) => cases.push(hard_inputs::plain_nodes(lut)),
                 Form::Structured(lut) => {
-                    cases.extend([hard_inputs::curve_nodes(film, lut), hard_inputs::table_nodes(lut)])
+                    cases.extend([hard_inputs::curve_nodes(film, lut), hard_inputs::table_nodes(lut)]);
                 }
                 Form::Direct(_) => {}
             }
