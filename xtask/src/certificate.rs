@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use anyhow::Result;
-use onelight::lut::{Certificate, ColourSet, SamplingLaw, Maps, Samples, Search, certify};
+use onelight::lut::{Certificate, ColourSet, Maps, Samples, SamplingLaw, Search, certify};
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Basis, Chromaticity, DisplayDifference, Reconstruction, color_checker};
 use onelight::{Look, Process, WorkingSpace};

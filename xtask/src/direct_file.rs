@@ -2,8 +2,8 @@
 
 use anyhow::{Context, Result, bail};
 use onelight::lut::{
-    DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, SCENE_MAX, LOG_FLOOR, Lut1d,
-    PowerCoding, Rows,
+    DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, LOG_FLOOR, Lut1d, PowerCoding, Rows,
+    SCENE_MAX,
 };
 use serde::{Deserialize, Serialize};
 use serde_json::Value;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Vector3};
-use onelight_lut::{Certificate, DirectForm, SamplingLaw, Maps, Samples, Search, certify};
+use onelight_lut::{Certificate, DirectForm, Maps, Samples, SamplingLaw, Search, certify};
 
 use super::fit::{fit, misses};
 use super::stages::Stages;
