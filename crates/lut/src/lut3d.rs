@@ -34,6 +34,10 @@ impl Lut3d {
     ///
     /// If `size` is out of bounds, the number of entries is not `size`^3, or an entry is no number within ±1e38: means of such are
     /// finite.
+    #[allow(
+        clippy::needless_pass_by_value,
+        reason = "callers hand over what they filled, and both would take memory otherwise"
+    )]
     pub fn new(size: usize, entries: Vec<[f32; 3]>) -> Result<Self, Error> {
         let expected = node_count(size)?;
         let found = entries.len();
