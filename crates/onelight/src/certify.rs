@@ -208,7 +208,7 @@ fn checker(space: WorkingSpace) -> Result<ColourSet, Error> {
     let patches = color_checker().iter().map(|patch| {
         let rgb = basis.rgb_of(&basis.white().reflected_by(&patch.reflectance));
         // One patch, cyan, lies a little outside sRGB.
-        (patch.name.as_str(), multiply(&from_srgb, rgb.into()).map(|v| v.max(0.0)))
+        (patch.name.as_str(), multiply(&from_srgb, rgb).map(|v| v.max(0.0)))
     });
     Ok(ColourSet::new("ColorChecker", patches)?)
 }

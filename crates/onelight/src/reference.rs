@@ -277,7 +277,7 @@ impl Reference {
 
     /// The input's primaries of a colour in sRGB's.
     pub(crate) fn input_of_srgb(&self, rgb: [f64; 3]) -> [f64; 3] {
-        self.scene.from_srgb(rgb)
+        self.scene.input_of_srgb(rgb)
     }
 
     pub(crate) fn rgb_from_xyz(&self) -> &Matrix3<f64> {

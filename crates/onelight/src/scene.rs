@@ -33,7 +33,7 @@ impl SceneInput {
     }
 
     /// The input's primaries of a colour in sRGB's.
-    pub(crate) fn from_srgb(&self, rgb: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn input_of_srgb(&self, rgb: [f64; 3]) -> [f64; 3] {
         multiply(&self.from_srgb, rgb)
     }
 }

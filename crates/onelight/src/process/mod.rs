@@ -31,7 +31,6 @@ use crate::word::Word as _;
 /// # Ok::<(), onelight::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "there are few descriptions at a time")]
 pub enum Process {
     /// The simulation of film: spectrum, exposure, dye, print, projection.
     Film(FilmProcess),
