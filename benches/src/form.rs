@@ -1,4 +1,8 @@
+use onelight::Look;
+use onelight::baked::{BakedForm, Recipe};
 use onelight_lut::{DirectForm, Lut3d, PixelMap, Pixels, PixelsMut, PlainLut, Sample, StructuredLut};
+
+use crate::error::{Error, Result};
 
 /// One look in one of the forms that take scene-linear light.
 #[derive(Clone, Debug)]
@@ -12,6 +16,18 @@ pub enum Form {
 }
 
 impl Form {
+    /// The form of a look that `bake` writes for a recipe.
+    pub(crate) fn baked(look: &Look, recipe: &Recipe) -> Result<Self> {
+        match look.baked(recipe)?.form() {
+            BakedForm::Plain(lut) => Ok(Self::Plain(lut.clone())),
+            BakedForm::Structured(lut) => Ok(Self::Structured(lut.clone())),
+            BakedForm::Direct(form) => Ok(Self::Direct(form.clone())),
+            BakedForm::Coded { .. } => {
+                Err(Error::new("a table that takes coded light is not among the forms measured"))
+            }
+        }
+    }
+
     /// Scene-linear RGB of the look's input space to display-coded RGB.
     pub fn apply(&self, linear: [f32; 3]) -> [f32; 3] {
         match self {

@@ -7,21 +7,18 @@
 
 pub mod buffers;
 mod calendar;
-mod difference;
 mod error;
 mod form;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 mod look;
 mod picture;
-mod plain_table;
 mod pool;
 mod progress;
 pub mod report;
 pub mod sheet_fidelity;
 pub mod stability;
 
-pub use difference::Difference;
 pub use error::Error;
 pub use form::Form;
 pub use look::{Forms, NEGATIVE, PLAIN_SIZE, PROCESSES, REVERSAL, SHAPER, film, plain, shaper};

@@ -1,4 +1,4 @@
-use onelight_lut::Sample;
+use onelight_lut::{Sample, SplitMix64};
 use rayon::prelude::*;
 
 /// Width and height in pixels.
@@ -107,10 +107,9 @@ fn smooth(at: [f32; 2], seed: u64) -> f32 {
 
 /// A number in [0, 1) for a place: the mixer of SplitMix64 \[Steele2014\].
 fn hash([i, k]: [i32; 2], seed: u64) -> f32 {
-    let mut z = (i as u32 as u64 | (k as u32 as u64) << 32).wrapping_add(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((z ^ (z >> 31)) >> 40) as f32 / (1_u32 << 24) as f32
+    let place = i as u32 as u64 | (k as u32 as u64) << 32;
+    let mixed = SplitMix64::mix(place.wrapping_add(seed.wrapping_mul(SplitMix64::STEP)));
+    (mixed >> 40) as f32 / (1_u32 << 24) as f32
 }
 
 #[cfg(test)]

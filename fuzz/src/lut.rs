@@ -97,7 +97,7 @@ pub fn ktx2(bytes: &[u8]) -> Met {
     let (texels, rest) = level.data.as_chunks::<8>();
     assert_eq!((texels.len(), rest.len()), (size.pow(3), 0));
     for (texel, [r, g, b]) in texels.iter().zip(table.entries()) {
-        let halves = [*r, *g, *b, 1.0].map(f16::from_f32);
+        let halves = [r, g, b, 1.0].map(f16::from_f32);
         assert_eq!(texel.as_chunks::<2>().0, halves.map(f16::to_le_bytes));
     }
     for (key, value) in reader.key_value_data() {

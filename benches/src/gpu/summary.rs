@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
+use onelight::baked::Recipe;
 use onelight::lut::{DirectForm, PlainLut, Storage, StructuredLut};
-use onelight::{Entries, Look, Process, Reference, StructuredSettings};
+use onelight::{Look, Process, Reference, StructuredSettings};
 use onelight_gpu::{Fetch, LookSettings, wgpu};
 use serde_json::{Value, json};
 use wgpu::TextureFormat::{self, Rgb10a2Unorm, Rgba8Unorm, Rgba8UnormSrgb, Rgba16Float, Rgba32Float};
@@ -13,8 +14,8 @@ use super::difference::{Difference, difference};
 use super::measure::{Subject, times};
 use super::pictures::{Sources, scene};
 use crate::calendar::{date, now};
-use crate::error::Result;
-use crate::plain_table::{PlainShaper, PlainTable};
+use crate::error::{Error, Result};
+use crate::form::Form;
 
 const SIZES: [[u32; 2]; 2] = [[1920, 1080], [3840, 2160]];
 const INPUTS: [TextureFormat; 2] = [Rgba16Float, Rgba32Float];
@@ -93,18 +94,15 @@ pub fn measure(software: bool) -> Result<Summary> {
 
 impl Forms {
     fn new(film: &Reference) -> Result<Self> {
-        let plain =
-            PlainTable { size: PLAIN_SIZE, shaper: PlainShaper::Fitted { stops: None }, entries: Entries::Sampled };
+        let Form::Plain(plain) = Form::baked(&Look::from(film.clone()), &Recipe::cube(PLAIN_SIZE))? else {
+            return Err(Error::new("a table with a shaper has another form"));
+        };
         let settings = StructuredSettings { size: STRUCTURED_SIZE, ..Default::default() };
-        Ok(Self {
-            plain: plain.bake(&Look::from(film.clone()))?,
-            structured: film.structured(&settings)?,
-            direct: film.direct(&Default::default())?,
-        })
+        Ok(Self { plain, structured: film.structured(&settings)?, direct: film.direct(&Default::default())? })
     }
 
     fn subjects(&self) -> [Subject<'_>; 5] {
-        let settings = |fetch| LookSettings { fetch, storage: Storage::F16, ..Default::default() };
+        let settings = |fetch| LookSettings { fetch, storage: Storage::F16 };
         let (texels, filtered) = (settings(Fetch::Texels), settings(Fetch::Filtered));
         [
             Subject { form: (&self.plain).into(), settings: filtered },

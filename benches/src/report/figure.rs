@@ -241,7 +241,7 @@ pub(super) fn peers(rows: &[Peer]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::difference::Difference;
+    use crate::report::difference::Difference;
 
     fn row(kind: Kind, detail: &str, ns: f64, max: f64) -> Row {
         let time = Timing { ns, median_ns: ns };

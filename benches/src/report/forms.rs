@@ -1,13 +1,13 @@
 //! The forms that are compared, and what they are called.
 
-use onelight::lut::{Interpolation, Storage};
-use onelight::{DirectSettings, Entries, Look, Nodes, Reference, StructuredSettings, TableCoding, Word};
+use onelight::baked::{Form as BakedAs, Recipe, ShaperChoice};
+use onelight::lut::Storage;
+use onelight::{DirectSettings, Entries, Look, Nodes, Reference, TableCoding, Word};
 use serde::Serialize;
 
 use super::scope::Scope;
 use crate::error::Result;
 use crate::form::Form;
-use crate::plain_table::{PlainShaper, PlainTable};
 
 /// What a figure belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
@@ -71,8 +71,6 @@ const TERM: usize = 24;
 
 const STORED_DENSITY: [Storage; 3] = [Storage::F32, Storage::F16, Storage::Unorm16];
 const STORED_DISPLAY: [Storage; 3] = [Storage::F16, Storage::Unorm10, Storage::Unorm8];
-/// Nodes of the plain table whose range ends at +6 stops.
-const PLAIN_SIZE: usize = 33;
 /// Largest table of display-coded entries.
 const DISPLAY_SIZE: usize = 32;
 const GRIDS_NM: [usize; 5] = [1, 2, 5, 10, 20];
@@ -95,24 +93,17 @@ pub(super) fn all(film: &Reference, scope: Scope, done: impl Fn()) -> Result<Vec
         done();
         Ok(())
     };
-    let of_plain = |size, stops| {
-        let table = PlainTable { size, shaper: PlainShaper::Fitted { stops }, entries: Entries::Fitted };
-        table.bake(&look).map(Form::Plain)
-    };
-    let talk = PlainTable { size: 32, shaper: PlainShaper::Gotanda, entries: Entries::Sampled };
-    add(Kind::Talk, Form::Plain(talk.bake(&look)?), &[Storage::F16], None, "")?;
+    let usual = Recipe { entries: Entries::Fitted, ..Recipe::of(BakedAs::Plain) };
+    let talk = Recipe { size: 32, shaper: ShaperChoice::Gotanda, entries: Entries::Sampled, ..usual };
+    add(Kind::Talk, Form::baked(&look, &talk)?, &[Storage::F16], None, "")?;
     for &size in plain {
         let all = [&STORED_DENSITY[..], &STORED_DISPLAY[1..]].concat();
-        add(Kind::Plain, of_plain(size, None)?, &all, None, "")?;
+        add(Kind::Plain, Form::baked(&look, &Recipe { size, ..usual })?, &all, None, "")?;
     }
     if scope == Scope::Full {
-        add(Kind::Plain, of_plain(PLAIN_SIZE, Some(6.0))?, &[Storage::F16], None, " to +6")?;
+        add(Kind::Plain, Form::baked(&look, &Recipe { stops: Some(6.0), ..usual })?, &[Storage::F16], None, " to +6")?;
     }
-    let of_structured = |size, coding| -> Result<Form> {
-        let settings =
-            StructuredSettings { size, interpolation: Interpolation::Tetrahedral, entries: Entries::Fitted, coding };
-        Ok(Form::Structured(Box::new(film.structured(&settings)?)))
-    };
+    let of_structured = |size, coding| Form::baked(&look, &Recipe { size, coding, ..Recipe::of(BakedAs::Structured) });
     for &size in structured {
         let coding = TableCoding::Density;
         add(Kind::Structured, of_structured(size, coding)?, &STORED_DENSITY, Some(coding), "")?;

@@ -1,6 +1,6 @@
 //! The picture that all forms are timed on.
 
-use onelight::lut::{Channels, Pixels};
+use onelight::lut::{Channels, Pixels, SplitMix64};
 use rayon::prelude::*;
 
 use crate::error::{Error, Result};
@@ -83,10 +83,8 @@ fn between(scene: &[[f32; 3]], (width, height): (usize, usize), x: usize, y: usi
 
 /// -1 to 1, the same on every machine: the finaliser of SplitMix64 \[Steele2014\].
 fn noise(index: usize) -> f32 {
-    let mut z = (index as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((z ^ (z >> 31)) >> 40) as f32 / (1 << 23) as f32 - 1.0
+    let mixed = SplitMix64::mix((index as u64).wrapping_mul(SplitMix64::STEP));
+    (mixed >> 40) as f32 / (1 << 23) as f32 - 1.0
 }
 
 #[cfg(test)]

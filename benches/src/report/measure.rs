@@ -1,16 +1,16 @@
 //! Speed and error of every form of a look.
 
-use onelight::lut::Law;
-use onelight::{Process, Reference, Word, stock};
+use onelight::certify::Certifier;
+use onelight::lut::{SamplingLaw, Search};
+use onelight::{Process, Reference, Word, WorkingSpace, stock};
 use serde::Serialize;
 
+use super::difference::Difference;
 use super::forms::{self, Kind, Made};
 use super::frame::Frame;
 use super::scope::Scope;
 use super::stopwatch::{Pass, Timing, copying, interleaved, mapping};
-use crate::difference::{Difference, differences};
 use crate::error::Result;
-use crate::form::Form;
 use crate::progress::{OnProgress, Steps};
 
 /// A form with its speed and its difference from the film.
@@ -66,12 +66,12 @@ pub(super) struct Prepared {
 }
 
 /// Colours that errors are measured on.
-pub(super) fn law(scope: Scope) -> Law {
+pub(super) fn law(scope: Scope) -> SamplingLaw {
     let count = match scope {
         Scope::Full => 1 << 17,
         Scope::Quick => 1 << 10,
     };
-    Law { count, ..Law::default() }
+    SamplingLaw { count, ..SamplingLaw::default() }
 }
 
 impl Prepared {
@@ -83,8 +83,15 @@ impl Prepared {
         drop(steps);
         let look = onelight::Look::from(film.clone());
         let steps = Steps::new("certifying", 1 + made.len() as u64, progress);
-        let forms: Vec<&Form> = made.iter().map(|made| &made.form).collect();
-        let errors = differences(&look, &law(scope), &forms, &|| steps.step())?;
+        let certifier = Certifier::new(&look)?;
+        let samples = certifier.samples(&law(scope), WorkingSpace::Srgb)?;
+        steps.step();
+        let mut errors = Vec::new();
+        for made in &made {
+            let certificate = certifier.certify(&samples, |rgb| made.form.apply(rgb), Search::Ascent)?;
+            errors.push(Difference::of(&certificate));
+            steps.step();
+        }
         drop(steps);
         Ok(Self { process: process.clone(), title: title(process)?, film, made, errors })
     }

@@ -5,6 +5,7 @@
 
 mod axis;
 mod contents;
+mod difference;
 mod figure;
 mod forms;
 mod frame;

@@ -240,7 +240,7 @@ mod tests {
     use onelight::Process;
 
     use super::*;
-    use crate::difference::Difference;
+    use crate::report::difference::Difference;
 
     fn row(kind: Kind, detail: &str, (ns, bytes): (f64, usize), max: f64) -> Row {
         let time = Timing { ns, median_ns: ns };

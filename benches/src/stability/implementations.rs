@@ -1,6 +1,6 @@
 //! Every implementation that computes a form: float64, float32, vector instructions, graphics cards.
 
-use onelight::lut::{Channels, PixelMap, Pixels, PixelsMut, Vectors};
+use onelight::lut::{Channels, PixelMap, Pixels, PixelsMut, SimdLevel};
 use rayon::prelude::*;
 
 use super::gpu::Card;
@@ -64,7 +64,7 @@ fn on_processor(form: &impl PixelMap, colours: &[[f32; 3]]) -> Result<Vec<Output
     ];
     let size = [colours.len(), 1];
     let from = Pixels::new(colours.as_flattened(), Channels::Rgb, size)?;
-    for vectors in Vectors::available() {
+    for vectors in SimdLevel::available() {
         let mut floats = vec![[0.0_f32; 3]; colours.len()];
         form.map_on(vectors, &from, &mut PixelsMut::new(floats.as_flattened_mut(), Channels::Rgb, size)?)?;
         let mut codes = vec![[0_u8; 3]; colours.len()];

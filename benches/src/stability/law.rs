@@ -31,7 +31,7 @@ const EXCESS_DIRECT: f64 = 0.13;
 const FILM_DIRECT: f64 = 0.13;
 
 /// The most that a quantity may be in a row; `None` where it is measured and has no limit.
-pub fn limit(row: &Row, quantity: Quantity) -> Option<f64> {
+pub(super) fn limit(row: &Row, quantity: Quantity) -> Option<f64> {
     match (quantity, row.kind, row.form.as_str()) {
         (Quantity::NotFinite, ..) => Some(0.0),
         (Quantity::Fall, _, "film") => Some(FALL_EXACT),

@@ -1,9 +1,10 @@
 //! What is measured, and where it is worst.
 
+use onelight::baked::{Form as BakedAs, Recipe};
 use onelight::lut::Sample;
 use onelight::spectra::ciede2000;
 use onelight::spectra::nalgebra::Vector3;
-use onelight::{DirectSettings, Entries, Look, Process, StructuredSettings, TransferCurve, Word};
+use onelight::{Look, Process, TransferCurve, Word};
 use rayon::prelude::*;
 
 use super::cases::{Case, Order, Strand, general};
@@ -12,8 +13,6 @@ use super::hard_inputs;
 use super::implementations::{Kind, Output, outputs};
 use crate::error::Result;
 use crate::form::Form;
-use crate::look::PLAIN_SIZE;
-use crate::plain_table::{PlainShaper, PlainTable};
 
 /// What is measured of a case, and can go wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -82,8 +81,8 @@ pub struct Row {
     pub mean: Option<f64>,
 }
 
-/// How many forms are measured; the film itself comes before them.
-const FORMS: usize = 3;
+/// The forms measured, each as it usually is; the film itself comes before them.
+const FORMS: [BakedAs; 3] = [BakedAs::Direct, BakedAs::Structured, BakedAs::Plain];
 
 /// A process with its hard cases, and what the film makes of them.
 struct Subject {
@@ -118,7 +117,7 @@ struct Measured {
 /// If the process does not compile, or the card cannot develop.
 pub fn rows(process: &Process, card: Option<&Card>, progress: impl Fn()) -> Result<Vec<Row>> {
     let look = process.look()?;
-    let forms = forms(&look)?;
+    let forms = FORMS.iter().map(|form| Form::baked(&look, &Recipe::of(*form))).collect::<Result<Vec<_>>>()?;
     progress();
     let subject = Subject::new(process, look, &forms)?;
     let mut rows = subject.of_film();
@@ -138,19 +137,7 @@ pub fn rows(process: &Process, card: Option<&Card>, progress: impl Fn()) -> Resu
 }
 
 /// How often [`rows`] calls its `progress`.
-pub const STEPS: usize = 2 + FORMS;
-
-/// The forms as they usually are.
-fn forms(look: &Look) -> Result<[Form; FORMS]> {
-    let film = look.film()?;
-    let shaper = PlainShaper::Fitted { stops: None };
-    let plain = PlainTable { size: PLAIN_SIZE, shaper, entries: Entries::Sampled };
-    Ok([
-        Form::Direct(Box::new(film.direct(&DirectSettings::default())?)),
-        Form::Structured(Box::new(film.structured(&StructuredSettings::default())?)),
-        Form::Plain(plain.bake(look)?),
-    ])
-}
+pub const STEPS: usize = 2 + FORMS.len();
 
 impl Subject {
     fn new(process: &Process, look: Look, forms: &[Form]) -> Result<Self> {

@@ -14,6 +14,5 @@ mod tests;
 
 pub use gpu::Card;
 pub use implementations::Kind;
-pub use law::limit;
 pub use measure::{Quantity, Row, STEPS, Worst, rows};
 pub use page::Contents;

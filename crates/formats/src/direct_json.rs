@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `format`, `version` | `"onelight direct form"` and 1 |
 //! | `comments`, `equations` | lines for people; a reader passes over them |
-//! | `input_max`, `log_floor` | [`onelight_lut::INPUT_MAX`] and [`onelight_lut::LOG_FLOOR`] |
+//! | `input_max`, `log_floor` | [`onelight_lut::SCENE_MAX`] and [`onelight_lut::LOG_FLOOR`] |
 //! | `input`, `exposure` | 3x3 matrices, a row for each output |
 //! | `curves` | `from` and `to` (log2 of exposure, a number for each channel), `entries` at equal steps between them |
 //! | `print` | `null`, or `exposure` (terms) and `curves` of a second film |
@@ -19,8 +19,8 @@ mod limited;
 use std::io::{Read, Write};
 
 use onelight_lut::{
-    DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, INPUT_MAX, LOG_FLOOR, Lut1d,
-    PowerCoding, Rows,
+    DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, LOG_FLOOR, Lut1d, PowerCoding, Rows,
+    SCENE_MAX,
 };
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -142,7 +142,7 @@ pub fn write<S: AsRef<str>>(
         ("version", Value::from(VERSION)),
         ("comments", Value::from(comments)),
         ("equations", Value::from(EQUATIONS.to_vec())),
-        ("input_max", Value::from(INPUT_MAX)),
+        ("input_max", Value::from(SCENE_MAX)),
         ("log_floor", Value::from(LOG_FLOOR)),
         ("input", value(&parts.input)?),
         ("exposure", value(&parts.exposure)?),
@@ -192,7 +192,7 @@ pub fn parse(text: &str) -> Result<DirectForm, Error> {
         return Err(unexpected("kind of file", found, "\"onelight direct form\" version 1"));
     }
     let body: Body = serde_json::from_str(text).map_err(|error| refused(&error))?;
-    for (what, found, constant) in [("input_max", body.input_max, INPUT_MAX), ("log_floor", body.log_floor, LOG_FLOOR)]
+    for (what, found, constant) in [("input_max", body.input_max, SCENE_MAX), ("log_floor", body.log_floor, LOG_FLOOR)]
     {
         if let Some(found) = found.filter(|&found| found != constant) {
             return Err(unexpected(what, found.to_string(), CONSTANTS_EXPECTED));

@@ -38,7 +38,7 @@ pub fn write<S: AsRef<str>>(
 ) -> Result<(), Error> {
     let size = table.size();
     let level = LEVELS.into_iter().find(|level| level * level == size).ok_or(Kind::HaldSize { found: size })?;
-    picture::write(writer, [level * size; 2], depth, table.entries().iter().copied(), comments)
+    picture::write(writer, [level * size; 2], depth, table.entries(), comments)
 }
 
 /// Reads a Hald CLUT from a PNG of 8 or 16 bits, of at most 256 MiB.

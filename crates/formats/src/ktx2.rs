@@ -51,7 +51,7 @@ pub fn write<S: AsRef<str>>(
 ) -> Result<(), Error> {
     let size = table.size();
     let too_large = |entry: [f32; 3]| entry.iter().any(|&v| !f16::from_f32(v).is_finite());
-    for (index, &found) in table.entries().iter().enumerate() {
+    for (index, found) in table.entries().enumerate() {
         if too_large(found) {
             return Err(Kind::Half { node: node_at(index, size), found }.into());
         }
@@ -61,7 +61,7 @@ pub fn write<S: AsRef<str>>(
     let one = f16::ONE.to_le_bytes();
     for [r, g, b] in table.entries() {
         for value in [r, g, b] {
-            file.extend(f16::from_f32(*value).to_le_bytes());
+            file.extend(f16::from_f32(value).to_le_bytes());
         }
         file.extend(one);
         if file.len() >= 1 << 16 {

@@ -24,8 +24,8 @@ const EXPANSION: usize = 1100;
 /// hald::write(&mut fine, &table, PngDepth::Sixteen, [""; 0])?;
 /// hald::write(&mut coarse, &table, PngDepth::Eight, [""; 0])?;
 /// let [fine, coarse] = [hald::read(fine.as_slice())?, hald::read(coarse.as_slice())?];
-/// assert_eq!(fine.entries()[1][0], 8192.0 / 65_535.0);
-/// assert_eq!(coarse.entries()[1][0], 32.0 / 255.0);
+/// assert_eq!(fine.entry([1, 0, 0]).map(|rgb| rgb[0]), Some(8192.0 / 65_535.0));
+/// assert_eq!(coarse.entry([1, 0, 0]).map(|rgb| rgb[0]), Some(32.0 / 255.0));
 /// # Ok::<(), onelight_formats::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -5,7 +5,7 @@ use std::io::{Read, Write};
 use onelight_lut::Lut3d;
 
 use crate::error::Error;
-use crate::node_order::{node_at, place_of};
+use crate::node_order::node_at;
 use crate::picture::{self, Picture, PngDepth, refuse};
 
 /// Which way green runs in each tile of a strip: engines disagree on where a texture begins.
@@ -17,7 +17,7 @@ use crate::picture::{self, Picture, PngDepth, refuse};
 /// let mut file = Vec::new();
 /// strip::write(&mut file, &table, PngDepth::Eight, StripGreen::Down, [""; 0])?;
 /// // Read the other way, black and green change places.
-/// assert_eq!(strip::read(file.as_slice(), StripGreen::Up)?.entries()[0], [0.0, 1.0, 0.0]);
+/// assert_eq!(strip::read(file.as_slice(), StripGreen::Up)?.entry([0; 3]), Some([0.0, 1.0, 0.0]));
 /// # Ok::<(), onelight_formats::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -45,7 +45,7 @@ pub enum StripGreen {
 /// let table = Lut3d::identity(16)?;
 /// let mut file = Vec::new();
 /// strip::write(&mut file, &table, PngDepth::Eight, StripGreen::Down, ["for Unreal"])?;
-/// assert_eq!(strip::read(file.as_slice(), StripGreen::Down)?.entries()[1], [17.0 / 255.0, 0.0, 0.0]);
+/// assert_eq!(strip::read(file.as_slice(), StripGreen::Down)?.entry([1, 0, 0]), Some([17.0 / 255.0, 0.0, 0.0]));
 /// # Ok::<(), onelight_formats::Error>(())
 /// ```
 pub fn write<S: AsRef<str>>(
@@ -57,10 +57,9 @@ pub fn write<S: AsRef<str>>(
 ) -> Result<(), Error> {
     let size = table.size();
     let pixels = (0..size).flat_map(|row| (0..size * size).map(move |column| (row, column)));
-    let pixels = pixels.map(|(row, column)| {
-        let node = [column % size, green_node(row, size, green), column / size];
-        table.entries()[place_of(node, size)]
-    });
+    // Every pixel is a node of the table, so none is left out.
+    let pixels =
+        pixels.filter_map(|(row, column)| table.entry([column % size, green_node(row, size, green), column / size]));
     picture::write(writer, [size * size, size], depth, pixels, comments)
 }
 

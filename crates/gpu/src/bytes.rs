@@ -108,12 +108,11 @@ impl LookBytes {
 
 impl TableBytes {
     fn new(table: &Lut3d, storage: Storage) -> Result<Self, Error> {
-        let entries = table.entries();
-        let texels = entries.iter().flat_map(|&[r, g, b]| [r, g, b, 1.0]);
+        let texels = table.entries().flat_map(|[r, g, b]| [r, g, b, 1.0]);
         let bytes = match storage {
             Storage::F32 => texels.flat_map(f32::to_ne_bytes).collect(),
-            Storage::F16 => match entries.iter().flatten().find(|v| f16::from_f32(**v).is_infinite()) {
-                Some(&found) => return Err(ErrorKind::HalfFloat { found }.into()),
+            Storage::F16 => match table.entries().flatten().find(|v| f16::from_f32(*v).is_infinite()) {
+                Some(found) => return Err(ErrorKind::HalfFloat { found }.into()),
                 None => texels.flat_map(|v| f16::from_f32(v).to_ne_bytes()).collect(),
             },
             found => return Err(ErrorKind::Storage { found }.into()),

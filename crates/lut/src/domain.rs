@@ -1,6 +1,14 @@
 use crate::error::{Error, Kind};
+use crate::number::Number;
 
 /// The box of inputs that a table covers: per channel, the input of its first and of its last entry.
+///
+/// ```
+/// use onelight_lut::Domain;
+/// assert_eq!(Domain::common(-1.0, 3.0)?.as_common(), Some([-1.0, 3.0]));
+/// assert!(Domain::new([0.0; 3], [1.0, 0.0, 1.0]).is_err());
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Domain {
     min: [f32; 3],
@@ -58,8 +66,18 @@ impl Domain {
     /// assert_eq!(domain.normalise([-1.0, 0.0, 5.0]), [0.0, 0.25, 1.5]);
     /// # Ok::<(), onelight_lut::Error>(())
     /// ```
+    #[inline]
     pub fn normalise(&self, rgb: [f32; 3]) -> [f32; 3] {
-        std::array::from_fn(|c| (rgb[c] - self.min[c]) / (self.max[c] - self.min[c]))
+        self.normalised(rgb)
+    }
+
+    /// [`Domain::normalise`] in either precision.
+    #[inline]
+    pub(crate) fn normalised<N: Number>(&self, rgb: [N; 3]) -> [N; 3] {
+        std::array::from_fn(|c| {
+            let (min, max) = (N::of(self.min[c]), N::of(self.max[c]));
+            (rgb[c] - min) / (max - min)
+        })
     }
 }
 

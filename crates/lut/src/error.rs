@@ -3,6 +3,11 @@ use std::{error, fmt};
 /// What went wrong in this crate: a parameter, a table or pixels that cannot be used.
 ///
 /// The message is one sentence that says what, where, what was found and what was expected.
+///
+/// ```
+/// let error = onelight_lut::Lut3d::identity(1).unwrap_err();
+/// assert_eq!(error.to_string(), "size of the 3D LUT: found 1, expected 2 to 256");
+/// ```
 #[derive(Debug)]
 pub struct Error(Box<Kind>);
 
@@ -18,6 +23,7 @@ pub(crate) enum Kind {
     Domain { min: [f32; 3], max: [f32; 3] },
     NoSamples,
     Difference { index: usize, sample: [f64; 3], found: f64 },
+    DifferenceCount { found: usize, expected: usize },
     PixelLayout { width: usize, height: usize, channels: usize, stride: usize, len: usize },
     PictureSizes { from: [usize; 2], to: [usize; 2] },
 }
@@ -66,6 +72,9 @@ impl fmt::Display for Error {
             Kind::NoSamples => f.write_str("samples of a deviation: found none, expected at least one"),
             Kind::Difference { index, sample, found } => {
                 write!(f, "difference at sample {index}, {sample:?}: found {found}, expected a finite number")
+            }
+            Kind::DifferenceCount { found, expected } => {
+                write!(f, "differences of a deviation: found {found}, expected {expected}, one for each sample")
             }
         }
     }

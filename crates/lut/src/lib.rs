@@ -31,39 +31,54 @@
 //! Colour science (what a difference between two colours is arrives as a closure), images, files (`onelight-formats` reads and
 //! writes those of tables), and applying a table on a GPU.
 
+/// The README's Rust blocks are compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod bake;
 mod certificate;
 mod coding;
 mod deviation;
 mod domain;
 mod error;
+mod exponential_sum;
 mod fit;
 mod form;
 mod interpolate;
 mod kernel;
+mod log2_exp2;
 mod lut1d;
 mod lut3d;
+mod number;
+mod padded;
 mod pixels;
+mod scene_light;
 mod scene_sampler;
 mod shaper;
+mod split_mix64;
 mod storage;
 
 pub use bake::{bake, bake_coordinates, bake_form};
 pub use certificate::{
-    Band, Certificate, ColourSet, Fall, Folds, HueSteps, Law, Maps, NeutralAxis, Samples, Search, SetDeviation, certify,
+    Band, Certificate, ColourSet, Fall, Folds, HueSteps, Maps, NeutralAxis, Samples, SamplingLaw, Search, SetDeviation,
+    certify,
 };
 pub use coding::{CodingStandard, PowerCoding};
 pub use deviation::{Deviation, deviation};
 pub use domain::Domain;
 pub use error::Error;
+pub use exponential_sum::{ExponentialSum, ExponentialTerm};
 pub use fit::{FitSample, FitSettings, fit};
-pub use form::direct::{DirectForm, DirectParts, DirectPrint, ExponentialSum, ExponentialTerm};
+pub use form::direct::{DirectForm, DirectParts, DirectPrint};
 pub use form::plain::PlainLut;
-pub use form::structured::{Decode, INPUT_MAX, LOG_FLOOR, Mix, Rows, StructuredLut, StructuredParts};
+pub use form::structured::{Decode, Mix, StructuredLut, StructuredParts};
 pub use interpolate::Interpolation;
 pub use lut1d::Lut1d;
 pub use lut3d::Lut3d;
-pub use pixels::{Channels, PixelMap, Pixels, PixelsMut, Sample, Vectors};
+pub use pixels::{Channels, PixelMap, Pixels, PixelsMut, Sample, SimdLevel};
+pub use scene_light::{IDENTITY, LOG_FLOOR, Rows, SCENE_MAX, finite};
 pub use scene_sampler::SceneSampler;
 pub use shaper::{Shaper, ShaperKind, texel_centre};
+pub use split_mix64::SplitMix64;
 pub use storage::Storage;

@@ -3,11 +3,11 @@
 //! ```
 //! use onelight::baked::Recipe;
 //! use onelight::certify::CertifySettings;
-//! use onelight::lut::{Law, Search};
+//! use onelight::lut::{SamplingLaw, Search};
 //! let look = onelight::Process::default().look()?;
 //! let baked = look.baked(&Recipe::cube(17))?;
 //! // Few colours for a quick answer; the default takes 32768 and follows the worst of them.
-//! let law = Law { count: 1 << 10, ..Law::default() };
+//! let law = SamplingLaw { count: 1 << 10, ..SamplingLaw::default() };
 //! let report = look.certify(&baked, &CertifySettings { law, search: Search::SamplesOnly })?;
 //! assert!(report.srgb.overall.mean < 0.5);
 //! println!("{report}");
@@ -17,7 +17,7 @@
 use std::fmt;
 
 use nalgebra::{Matrix3, Vector3};
-use onelight_lut::{Certificate, ColourSet, Law, Maps, Samples, Search, certify};
+use onelight_lut::{Certificate, ColourSet, Maps, Samples, SamplingLaw, Search, certify};
 use onelight_spectra::{Basis, Chromaticity, DisplayDifference, Reconstruction, color_checker};
 use serde::Serialize;
 
@@ -30,14 +30,14 @@ use crate::word::WorkingSpace;
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertifySettings {
     /// Which colours, over which exposures.
-    pub law: Law,
+    pub law: SamplingLaw,
     /// Whether the worst of them are followed uphill.
     pub search: Search,
 }
 
 impl Default for CertifySettings {
     fn default() -> Self {
-        Self { law: Law::default(), search: Search::Ascent }
+        Self { law: SamplingLaw::default(), search: Search::Ascent }
     }
 }
 
@@ -87,10 +87,10 @@ pub struct MeanAndMax {
 /// ```
 /// use onelight::WorkingSpace;
 /// use onelight::certify::Certifier;
-/// use onelight::lut::{Law, Search};
+/// use onelight::lut::{SamplingLaw, Search};
 /// let look = onelight::Process::default().look()?;
 /// let certifier = Certifier::new(&look)?;
-/// let samples = certifier.samples(&Law { count: 1 << 8, ..Law::default() }, WorkingSpace::Srgb)?;
+/// let samples = certifier.samples(&SamplingLaw { count: 1 << 8, ..SamplingLaw::default() }, WorkingSpace::Srgb)?;
 /// // The look itself in float32 differs by its rounding alone.
 /// let exact = |rgb: [f32; 3]| look.develop(rgb.map(f64::from)).map(|v| v as f32);
 /// assert!(certifier.certify(&samples, exact, Search::SamplesOnly)?.max_found < 0.001);
@@ -116,7 +116,7 @@ impl<'a> Certifier<'a> {
     ///
     /// # Errors
     /// If the law is out of range.
-    pub fn samples(&self, law: &Law, space: WorkingSpace) -> Result<Samples, Error> {
+    pub fn samples(&self, law: &SamplingLaw, space: WorkingSpace) -> Result<Samples, Error> {
         let to_input = self.to_input(space)?;
         let exact = |rgb| self.look.develop_linear(multiply(&to_input, rgb));
         Ok(Samples::new(law, &[checker(space)?], exact, |_| {})?)

@@ -71,10 +71,10 @@
 //! ```
 //! use onelight::baked::Recipe;
 //! # use onelight::certify::CertifySettings;
-//! # use onelight::lut::{Law, Search};
+//! # use onelight::lut::{SamplingLaw, Search};
 //! let look = onelight::Process::default().look()?;
 //! let baked = look.baked(&Recipe::cube(17))?;
-//! # let settings = CertifySettings { law: Law { count: 1 << 9, ..Law::default() }, search: Search::SamplesOnly };
+//! # let settings = CertifySettings { law: SamplingLaw { count: 1 << 9, ..SamplingLaw::default() }, search: Search::SamplesOnly };
 //! # /* The usual settings, by `&Default::default()`, take 30 seconds where nothing is optimised.
 //! let report = look.certify(&baked, &Default::default())?;
 //! # */ let report = look.certify(&baked, &settings)?;

@@ -59,7 +59,13 @@
 //! conversion between colour spaces; paths.
 #![cfg_attr(
     not(all(feature = "exr", feature = "png", feature = "tiff")),
-    allow(dead_code, unused_imports, reason = "what the formats share is all used where all are built")
+    allow(
+        dead_code,
+        unused_imports,
+        unused_mut,
+        unused_variables,
+        reason = "what the formats share is all used where all are built"
+    )
 )]
 
 mod alpha;

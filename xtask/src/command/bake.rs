@@ -5,7 +5,7 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 use onelight::baked::{AsWritten, Baked, FileFormat, Form, Recipe, ShaperChoice, smallest_under};
 use onelight::certify::{Certifier, Gamut, Tint, in_words, summary};
-use onelight::lut::{Certificate, Deviation, Law, Search, Storage, deviation};
+use onelight::lut::{Certificate, Deviation, SamplingLaw, Search, Storage, deviation};
 use onelight::{DirectSettings, Entries, Look, Nodes, Process, TableCoding, TransferCurve, Word, WorkingSpace};
 use serde_json::json;
 
@@ -228,7 +228,7 @@ struct Measured {
 impl Measured {
     fn new(film: &Look, baked: &Baked, formats: &[FileFormat], scene: Option<&[[f64; 3]]>) -> Result<Self> {
         let measure = Certifier::new(film)?;
-        let samples = measure.samples(&Law::default(), WorkingSpace::Srgb)?;
+        let samples = measure.samples(&SamplingLaw::default(), WorkingSpace::Srgb)?;
         let mut written = Vec::new();
         for &format in formats {
             written.push(baked.as_written(format)?);
@@ -240,7 +240,7 @@ impl Measured {
         let first = &written[0];
         let rec2020 = match baked.gamut() {
             Gamut::Wide => {
-                let samples = measure.samples(&Law::default(), WorkingSpace::Rec2020)?;
+                let samples = measure.samples(&SamplingLaw::default(), WorkingSpace::Rec2020)?;
                 let map = |rgb| first.apply(rgb);
                 Some(measure.certify_in(WorkingSpace::Rec2020, &samples, map, Search::Ascent)?)
             }

@@ -4,7 +4,7 @@ use anyhow::Result;
 use clap::Args;
 use onelight::baked::{Form, Recipe, ShaperChoice};
 use onelight::certify::{Certifier, MeanAndMax, in_words, to_six_stops};
-use onelight::lut::{Certificate, Law, Search, Storage};
+use onelight::lut::{Certificate, SamplingLaw, Search, Storage};
 use onelight::{Aim, Entries, Nodes, Process, ProcessKeys, TableCoding, Word, WorkingSpace};
 use onelight_benches::buffers;
 use serde_json::{Value, json};
@@ -70,7 +70,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     }
     let mut clock = Clock::default();
     let looks = looks(arguments)?;
-    let law = Law { count: arguments.colours, ..Law::default() };
+    let law = SamplingLaw { count: arguments.colours, ..SamplingLaw::default() };
     let progress = bar("certifying", (looks.len() * forms().len()) as u64);
     let mut text = format!(
         "CIEDE2000 from the exact film, {} sRGB colours from -10 to +10 stops, any saturation; max after following the worst\n\

@@ -372,17 +372,19 @@ fn own_sheet(folder: &Path, from: &str, id: &str) {
     }
 }
 
+/// A small bake without a certificate, with more options.
+fn quickly<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    [&["bake", "--quick", "--size", "9"], more].concat()
+}
+
 #[test]
 fn a_data_sheet_of_ones_own_is_a_film_like_any_other() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     own_sheet(folder, "kodak-5207", "mine");
     own_sheet(folder, "kodak-2383", "my-print");
-    fn bake<'a>(more: &[&'a str]) -> Vec<&'a str> {
-        [&["bake", "--quick", "--size", "9"], more].concat()
-    }
-    done(folder, &bake(&["--out", "built-in"]));
-    let said = done(folder, &bake(&["--camera", "./mine", "--print", "my-print", "--out", "looks/own"]));
+    done(folder, &quickly(&["--out", "built-in"]));
+    let said = done(folder, &quickly(&["--camera", "./mine", "--print", "my-print", "--out", "looks/own"]));
     assert!(said.contains("mine_my-print"), "{said}");
     // The same film under another name.
     let table = |name: &str| {
@@ -394,17 +396,17 @@ fn a_data_sheet_of_ones_own_is_a_film_like_any_other() {
     let look = fs::read_to_string(folder.join("looks/own/look.toml")).unwrap();
     assert!(look.contains("camera = \"mine\"\ncamera_sheet = \"../../mine\"\ncamera_sha256 = \""), "{look}");
     assert!(look.contains("print_sheet = \"../../my-print\""), "{look}");
-    done(folder, &bake(&["--look", "looks/own/look.toml", "--out", "looks/again"]));
+    done(folder, &quickly(&["--look", "looks/own/look.toml", "--out", "looks/again"]));
     assert_eq!(look, fs::read_to_string(folder.join("looks/again/look.toml")).unwrap());
     assert_eq!(table("looks/again"), table("looks/own"));
     // Every form.
     for form in ["structured", "direct"] {
-        done(folder, &bake(&["--camera", "mine", "--form", form, "--out", form]));
+        done(folder, &quickly(&["--camera", "mine", "--form", form, "--out", form]));
     }
     // A changed sheet is told, and taken where it is asked for.
     let sheet = folder.join("mine/stock.toml");
     fs::write(&sheet, fs::read_to_string(&sheet).unwrap() + "# changed\n").unwrap();
-    let changed = bake(&["--look", "looks/own/look.toml", "--out", "looks/changed"]);
+    let changed = quickly(&["--look", "looks/own/look.toml", "--out", "looks/changed"]);
     let sentence = refused(folder, &changed);
     assert!(sentence.contains("has changed since") && sentence.contains("--camera"), "{sentence}");
     done(folder, &[&changed[..], &["--camera", "mine"]].concat());

@@ -113,7 +113,7 @@ impl Session {
 /// Writes what all programs are given.
 fn make(folder: &Path, size: [usize; 2]) -> Answer {
     let lut = plain(&film(NEGATIVE)?)?;
-    write_floats(&folder.join("table.f32"), lut.table().entries().iter().flatten())?;
+    write_floats(&folder.join("table.f32"), lut.table().entries().flatten().collect::<Vec<_>>().iter())?;
     write_floats(&folder.join("picture.f32"), natural(size).iter())?;
     Ok(vec![PLAIN_SIZE as f64, SHAPER[0], SHAPER[1]])
 }
@@ -144,8 +144,8 @@ fn misses(film: &Reference, method: &BakeMethod, size: usize) -> Answer {
     let (table, exact) = (method.bake(film, size)?, BakeMethod::Reference.bake(film, size)?);
     let (difference, coding) = (film.difference()?, film.coding());
     let linear = |rgb: &[f32; 3]| rgb.map(|v| coding.decode(f64::from(v)));
-    let pairs = table.entries().par_iter().zip(exact.entries());
-    Ok(vec![pairs.map(|(a, b)| difference.between(linear(a), linear(b))).reduce(|| 0.0, f64::max)])
+    let pairs: Vec<_> = table.entries().zip(exact.entries()).collect();
+    Ok(vec![pairs.par_iter().map(|(a, b)| difference.between(linear(a), linear(b))).reduce(|| 0.0, f64::max)])
 }
 
 /// The film, compiled at its first use.

@@ -152,7 +152,7 @@ fn table(forms: &[&Made], frame: &Frame, scope: Scope) -> Result<Vec<Measured>> 
 
 fn resampled(table: &Lut3d, size: usize) -> Result<Lut3d> {
     let places = Lut3d::identity(size)?;
-    let entries = places.entries().iter().map(|&place| table.apply(place, Interpolation::Trilinear)).collect();
+    let entries = places.entries().map(|place| table.apply(place, Interpolation::Trilinear)).collect();
     Ok(Lut3d::new(size, entries)?)
 }
 

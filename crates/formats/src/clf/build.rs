@@ -2,11 +2,9 @@ use super::ClfProcess;
 use super::op::{Direction, ExponentStyle, LogCurve, Op, Power, Range};
 use crate::error::{Error, Kind};
 use onelight_lut::{
-    Decode, Domain, INPUT_MAX, Interpolation, LOG_FLOOR, Lut1d, Lut3d, Mix, PlainLut, PowerCoding, Rows, ShaperKind,
-    StructuredLut,
+    Decode, Domain, IDENTITY, Interpolation, LOG_FLOOR, Lut1d, Lut3d, Mix, PlainLut, PowerCoding, Rows, SCENE_MAX,
+    ShaperKind, StructuredLut,
 };
-
-const IDENTITY: Rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 impl ClfProcess {
     /// A structured LUT, whole.
@@ -16,7 +14,7 @@ impl ClfProcess {
     /// None that a [`StructuredLut`] can cause today; the tables are checked once more.
     pub fn from_structured(lut: &StructuredLut) -> Result<Self, Error> {
         let parts = lut.parts();
-        let max = f64::from(INPUT_MAX);
+        let max = f64::from(SCENE_MAX);
         let mut ops = Vec::new();
         if parts.input != IDENTITY {
             ops.push(Op::Range(Range::clamp(-max, max)));

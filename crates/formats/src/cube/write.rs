@@ -24,12 +24,11 @@ impl CubeFile {
         let mut out = Blocks { writer, block: Vec::with_capacity(BLOCK + 1024) };
         self.write_text(&mut out.block)?;
         self.write_sizes(&mut out.block)?;
-        let lut1d = self.lut1d().map(Lut1d::entries);
-        let lut3d = self.lut3d().map(Lut3d::entries);
-        for entries in [lut1d, lut3d].into_iter().flatten() {
-            for &entry in entries {
-                out.numbers(entry)?;
-            }
+        for &entry in self.lut1d().map(Lut1d::entries).into_iter().flatten() {
+            out.numbers(entry)?;
+        }
+        for entry in self.lut3d().map(Lut3d::entries).into_iter().flatten() {
+            out.numbers(entry)?;
         }
         out.finish()
     }

@@ -5,11 +5,9 @@ use std::path::Path;
 
 use onelight_formats::direct_json;
 use onelight_lut::{
-    DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, Lut1d, PowerCoding, Rows,
+    DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, IDENTITY, Lut1d, PowerCoding,
 };
 use serde_json::{Value, json};
-
-const IDENTITY: Rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// The look of the repository.
 fn look() -> (Vec<u8>, DirectForm) {

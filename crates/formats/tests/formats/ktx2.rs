@@ -6,8 +6,8 @@ use onelight_formats::ktx2;
 use onelight_lut::Lut3d;
 
 fn bent(size: usize) -> Lut3d {
-    let entries = Lut3d::identity(size).unwrap().entries().to_vec();
-    Lut3d::new(size, entries.into_iter().map(|[x, y, z]| [x * x - 0.2, 40.0 * y, 1e-6 + z]).collect()).unwrap()
+    let identity = Lut3d::identity(size).unwrap();
+    Lut3d::new(size, identity.entries().map(|[x, y, z]| [x * x - 0.2, 40.0 * y, 1e-6 + z]).collect()).unwrap()
 }
 
 fn file(table: &Lut3d, comments: &[&str]) -> Vec<u8> {

@@ -5,15 +5,15 @@ use onelight_lut::Lut3d;
 
 /// Not separable, with entries beyond 0 and 1.
 pub(crate) fn bent(size: usize) -> Lut3d {
-    let entries = Lut3d::identity(size).unwrap().entries().to_vec();
+    let identity = Lut3d::identity(size).unwrap();
     let bend = |[x, y, z]: [f32; 3]| [1.2 * x * x - 0.1 * y, y.sqrt(), 0.9 * z - 0.05 + 0.2 * x];
-    Lut3d::new(size, entries.into_iter().map(bend).collect()).unwrap()
+    Lut3d::new(size, identity.entries().map(bend).collect()).unwrap()
 }
 
 /// What a table may become in a picture.
 pub(crate) fn nearest_code(table: &Lut3d, depth: PngDepth) -> Vec<[f32; 3]> {
     let max = if depth == PngDepth::Eight { 255.0 } else { 65_535.0 };
-    table.entries().iter().map(|entry| entry.map(|v| (v.clamp(0.0, 1.0) * max).round() / max)).collect()
+    table.entries().map(|entry| entry.map(|v| (v.clamp(0.0, 1.0) * max).round() / max)).collect()
 }
 
 /// A file that `read` takes, cut everywhere, with every byte changed, and with a size it does not have.

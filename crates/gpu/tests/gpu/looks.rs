@@ -59,7 +59,7 @@ impl LookForms {
 /// The structured look with display-coded entries.
 pub(crate) fn coded(look: &LookForms) -> StructuredLut {
     let lut = &look.structured;
-    let entries = lut.parts().table.entries().iter().map(|&entry| lut.decode(entry)).collect();
+    let entries = lut.parts().table.entries().map(|entry| lut.decode(entry)).collect();
     let table = Lut3d::new(SIZE, entries).unwrap();
     StructuredLut::new(StructuredParts { table, decode: Decode::Coded, ..lut.parts().clone() }).unwrap()
 }

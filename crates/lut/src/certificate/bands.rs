@@ -1,23 +1,22 @@
-use serde::Serialize;
-
-use super::law::Law;
+use super::sampling_law::SamplingLaw;
 use crate::deviation::Deviation;
 use crate::error::Error;
 use crate::scene_sampler::SceneSampler;
 
 /// The difference over the drawn colours of one range of exposure.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Band {
     /// The range of the largest channel, in stops about mid grey; the lower end belongs to the band.
     pub stops: [f64; 2],
     /// The differences; serialised beside `stops`, not below a name of their own.
-    #[serde(flatten)]
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub deviation: Deviation,
 }
 
 /// The drawn colours by exposure, darkest first.
-pub(super) fn bands(law: &Law, places: &[[f64; 3]], differences: &[f64]) -> Result<Vec<Band>, Error> {
+pub(super) fn bands(law: &SamplingLaw, places: &[[f64; 3]], differences: &[f64]) -> Result<Vec<Band>, Error> {
     let [low, high] = law.stops;
     let count = (((high - low) / law.band_width).ceil() as usize).max(1);
     let mut members: Vec<(Vec<[f64; 3]>, Vec<f64>)> = vec![(Vec::new(), Vec::new()); count];

@@ -1,13 +1,12 @@
-use serde::Serialize;
-
-use super::samples::Compared;
+use super::compared::Compared;
 
 /// Places where a map turns space inside out: two colours of the scene swap sides there.
 ///
 /// At every place the 3x3 of local contrast is taken, change of the picture over change of the scene, both in
 /// stops, by central differences in each channel. Where the sign of its determinant is not the reference's, the
 /// candidate has a fold.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Folds {
     /// How many places were looked at: the greys and the law's first colours.

@@ -5,21 +5,32 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::colour_set::ColourSet;
-use super::law::{Law, Search};
+use super::compared::Compared;
+use super::sampling_law::{SamplingLaw, Search};
 use super::{colour_set, folds, hue_steps, neutral_axis};
 use crate::deviation::Deviation;
 use crate::error::Error;
 use crate::scene_sampler::SceneSampler;
 
-/// All colours of a [`Law`] with the reference's values there: made once, then held against any number of
+/// All colours of a [`SamplingLaw`] with the reference's values there: made once, then held against any number of
 /// candidates by [`certify`](crate::certify()).
+///
+/// ```
+/// use onelight_lut::{Samples, SamplingLaw};
+/// let law = SamplingLaw { count: 256, ..SamplingLaw::default() };
+/// let samples = Samples::new(&law, &[], |rgb| rgb.map(|u| u / (u + 0.18)), |_colours_done| {})?;
+/// let brighter = |rgb: [f64; 3]| rgb.map(|u| u / (u + 0.17));
+/// let found = samples.deviation(brighter, |a, b| (a[1] - b[1]).abs())?;
+/// assert!(found.max > 0.01 && found.max < 0.02);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone)]
 pub struct Samples {
-    law: Law,
+    law: SamplingLaw,
     sets: Vec<ColourSet>,
     /// Scene-linear; one list for all parts, so that threads share it evenly.
     places: Vec<[f64; 3]>,
-    /// Display-linear.
+    /// What the reference makes of each place, display-linear RGB.
     reference: Vec<[f64; 3]>,
     parts: Parts,
 }
@@ -34,13 +45,6 @@ struct Parts {
     stencils: Range<usize>,
 }
 
-/// Two maps on one part of the list.
-pub(super) struct Compared<'a> {
-    pub(super) places: &'a [[f64; 3]],
-    pub(super) reference: &'a [[f64; 3]],
-    pub(super) candidate: &'a [[f64; 3]],
-}
-
 impl Samples {
     /// Evaluates the reference, scene-linear RGB to display-linear RGB, at every colour of a law and of the
     /// caller's own sets, on all threads.
@@ -52,7 +56,7 @@ impl Samples {
     ///
     /// If a field of the law is out of bounds; the error names it.
     pub fn new(
-        law: &Law,
+        law: &SamplingLaw,
         sets: &[ColourSet],
         reference: impl Fn([f64; 3]) -> [f64; 3] + Sync,
         progress: impl Fn(usize) + Sync,
@@ -79,7 +83,7 @@ impl Samples {
 
     /// The law that the colours follow.
     #[must_use]
-    pub fn law(&self) -> &Law {
+    pub fn law(&self) -> &SamplingLaw {
         &self.law
     }
 
@@ -155,13 +159,6 @@ impl Samples {
 impl fmt::Debug for Samples {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Samples").field("law", &self.law).field("parts", &self.parts).finish_non_exhaustive()
-    }
-}
-
-impl Compared<'_> {
-    /// In the order of the places, whatever the threads.
-    pub(super) fn differences(&self, difference: &(impl Fn(&[f64; 3], &[f64; 3]) -> f64 + Sync)) -> Vec<f64> {
-        self.reference.par_iter().zip(self.candidate).map(|(a, b)| difference(a, b)).collect()
     }
 }
 

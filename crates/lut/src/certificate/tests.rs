@@ -21,8 +21,8 @@ fn luminance(v: &[f64; 3]) -> f64 {
     0.2 * v[0] + 0.7 * v[1] + 0.1 * v[2]
 }
 
-fn law() -> Law {
-    Law { count: 1 << 12, fold_places: 256, ..Law::default() }
+fn law() -> SamplingLaw {
+    SamplingLaw { count: 1 << 12, fold_places: 256, ..SamplingLaw::default() }
 }
 
 fn chart() -> ColourSet {
@@ -30,7 +30,7 @@ fn chart() -> ColourSet {
         .unwrap()
 }
 
-fn certificate_of(law: &Law, search: Search, candidate: impl Fn([f64; 3]) -> [f64; 3] + Sync) -> Certificate {
+fn certificate_of(law: &SamplingLaw, search: Search, candidate: impl Fn([f64; 3]) -> [f64; 3] + Sync) -> Certificate {
     let samples = Samples::new(law, &[chart()], film, |_| {}).unwrap();
     certify(&samples, &Maps { reference: film, candidate, difference, luminance }, search, |_| {}).unwrap()
 }
@@ -286,10 +286,12 @@ fn samples_serve_many_candidates() {
 
 #[test]
 fn seeds_draw_other_colours() {
-    let of = |seed| certificate_of(&Law { seed, ..law() }, Search::SamplesOnly, |rgb| film(rgb).map(f64::sqrt)).overall;
+    let of = |seed| {
+        certificate_of(&SamplingLaw { seed, ..law() }, Search::SamplesOnly, |rgb| film(rgb).map(f64::sqrt)).overall
+    };
     assert_ne!(of(1), of(2));
     assert_eq!(of(2), of(2));
-    assert_ne!(Law::SEED, 0);
+    assert_ne!(SamplingLaw::SEED, 0);
 }
 
 #[test]
@@ -310,15 +312,15 @@ fn what_cannot_be_measured_is_an_error() {
     assert_eq!(error, "luminance of the candidate on the neutral axis: found inf, expected a finite number");
 
     let bad = [
-        Law { count: 0, ..law() },
-        Law { count: usize::MAX, ..law() },
-        Law { stops: [2.0, 1.0], ..law() },
-        Law { stops: [f64::NAN, 1.0], ..law() },
-        Law { band_width: 0.0, ..law() },
-        Law { neutral_step: f64::NAN, ..law() },
-        Law { fold_places: usize::MAX, ..law() },
-        Law { ascents: usize::MAX, ..law() },
-        Law { ascent_steps: usize::MAX, ..law() },
+        SamplingLaw { count: 0, ..law() },
+        SamplingLaw { count: usize::MAX, ..law() },
+        SamplingLaw { stops: [2.0, 1.0], ..law() },
+        SamplingLaw { stops: [f64::NAN, 1.0], ..law() },
+        SamplingLaw { band_width: 0.0, ..law() },
+        SamplingLaw { neutral_step: f64::NAN, ..law() },
+        SamplingLaw { fold_places: usize::MAX, ..law() },
+        SamplingLaw { ascents: usize::MAX, ..law() },
+        SamplingLaw { ascent_steps: usize::MAX, ..law() },
     ];
     for law in bad {
         assert!(Samples::new(&law, &[], film, |_| {}).is_err(), "{law:?}");
@@ -327,12 +329,20 @@ fn what_cannot_be_measured_is_an_error() {
 
 #[test]
 fn small_laws_work() {
-    let law = Law { count: 1, ascents: 0, ascent_steps: 0, fold_places: 0, stops: [1.0, 1.0], ..Law::default() };
+    let law = SamplingLaw {
+        count: 1,
+        ascents: 0,
+        ascent_steps: 0,
+        fold_places: 0,
+        stops: [1.0, 1.0],
+        ..SamplingLaw::default()
+    };
     let found = certificate_of(&law, Search::Ascent, |rgb| film(rgb).map(|v| 0.9 * v));
     assert_eq!((found.bands.len(), found.neutral_axis.count, found.folds.places), (1, 1, 1));
     assert_eq!(found.max_found, found.overall.max);
 }
 
+#[cfg(feature = "serde")]
 #[test]
 fn the_serialised_form_keeps_its_names() {
     let json = serde_json::to_value(certificate(|rgb| film(rgb).map(|v| 0.99 * v))).unwrap();

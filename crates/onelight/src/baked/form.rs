@@ -148,15 +148,15 @@ impl Baked {
     /// [`Baked::apply`] to every pixel, on all threads.
     pub fn map_in_place(&self, pixels: &mut [[f32; 3]]) {
         match &self.form {
-            BakedForm::Plain(lut) => lut.apply_to_slice(pixels),
+            BakedForm::Plain(lut) => lut.map_colours(pixels),
             BakedForm::Coded { .. } => pixels.par_iter_mut().for_each(|rgb| *rgb = self.apply(*rgb)),
-            BakedForm::Structured(lut) => lut.apply_to_slice(pixels),
+            BakedForm::Structured(lut) => lut.map_colours(pixels),
             BakedForm::Direct(direct) => pixels.par_chunks_mut(BLOCK).for_each(|block| {
                 let width = block.len();
                 match PixelsMut::new(block.as_flattened_mut(), Channels::Rgb, [width, 1]) {
                     Ok(mut row) => direct.map_in_place(&mut row),
                     // A row of its own length always is a picture; were it not, its pixels would still be mapped.
-                    Err(_) => direct.apply_to_slice(block),
+                    Err(_) => direct.map_colours(block),
                 }
             }),
         }

@@ -1,6 +1,6 @@
 //! The smallest table that keeps a promise.
 
-use onelight_lut::{Law, Search, Storage};
+use onelight_lut::{SamplingLaw, Search, Storage};
 
 use super::form::Baked;
 use super::recipe::{Form, Recipe};
@@ -32,7 +32,7 @@ const STORED: [(TableCoding, [Storage; 2]); 2] =
 /// If no table up to 64^3 keeps the limit, or the look has no film curves.
 pub fn smallest_under(look: &Look, limit: f64, progress: impl Fn(usize, usize)) -> Result<Recipe, Error> {
     let certifier = Certifier::new(look)?;
-    let samples = certifier.samples(&Law::default(), WorkingSpace::Srgb)?;
+    let samples = certifier.samples(&SamplingLaw::default(), WorkingSpace::Srgb)?;
     let mut best: Option<(usize, Recipe)> = None;
     let mut nearest = f64::INFINITY;
     for (tried, size) in SIZES.into_iter().enumerate() {

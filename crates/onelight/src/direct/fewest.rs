@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
-use onelight_lut::{Certificate, DirectForm, Law, Maps, Samples, Search, certify};
+use onelight_lut::{Certificate, DirectForm, Maps, Samples, SamplingLaw, Search, certify};
 
 use super::fit::{fit, misses};
 use super::settings::{Nodes, check_limit};
@@ -81,7 +81,7 @@ impl<'a> Measure<'a> {
     fn new(film: &'a Reference) -> Result<Self, Error> {
         // Colours of the law are in sRGB primaries.
         let exact = |rgb| film.develop_linear(film.input_of_srgb(rgb));
-        let samples = Samples::new(&Law::default(), &[], exact, |_| {})?;
+        let samples = Samples::new(&SamplingLaw::default(), &[], exact, |_| {})?;
         Ok(Self { film, samples, luminance: film.spaces().luminance()? })
     }
 

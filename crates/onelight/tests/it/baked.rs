@@ -2,11 +2,11 @@
 
 use onelight::baked::{Form, Recipe, ShaperChoice, smallest_under};
 use onelight::certify::{CertifySettings, to_six_stops};
-use onelight::lut::{Law, Search, Storage};
+use onelight::lut::{SamplingLaw, Search, Storage};
 use onelight::{Entries, FirstProcess, Process, ToneProcess};
 
 fn settings() -> CertifySettings {
-    CertifySettings { law: Law { count: 1 << 11, ..Law::default() }, search: Search::SamplesOnly }
+    CertifySettings { law: SamplingLaw { count: 1 << 11, ..SamplingLaw::default() }, search: Search::SamplesOnly }
 }
 
 #[test]

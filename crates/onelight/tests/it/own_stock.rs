@@ -1,7 +1,7 @@
 //! Data sheets of one's own in the camera and behind the negative.
 
 use onelight::certify::{Certifier, CertifySettings};
-use onelight::lut::{Law, Search};
+use onelight::lut::{SamplingLaw, Search};
 use onelight::{
     FilmProcess, Films, FirstProcess, Printing, Process, ProcessKeys, Reference, SheetText, Stock, StockRef,
     ToneProcess, baked, stock,
@@ -73,7 +73,7 @@ fn a_changed_sheet_reaches_stages_forms_and_certificate() {
     assert!(b.amounts.green.0 - a.amounts.green.0 > 0.01 && !same(&usual, own), "{:?} {:?}", a.amounts, b.amounts);
     // Grey is grey on it too: it was calibrated with its own curves.
     assert!(b.linear.iter().all(|v| (v - 10f64.powf(-0.7)).abs() < 1e-6), "{:?}", b.linear);
-    let law = Law { count: 1 << 10, ..Law::default() };
+    let law = SamplingLaw { count: 1 << 10, ..SamplingLaw::default() };
     for (form, size, limit) in
         [(baked::Form::Plain, 33, 40.0), (baked::Form::Structured, 12, 1.0), (baked::Form::Direct, 0, 0.1)]
     {

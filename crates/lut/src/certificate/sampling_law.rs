@@ -1,5 +1,3 @@
-use serde::Serialize;
-
 use crate::error::{Error, Kind};
 
 /// Which colours a [`Certificate`](crate::Certificate) looks at, so that figures can be compared.
@@ -8,12 +6,13 @@ use crate::error::{Error, Kind};
 /// about mid grey, saturation uniform, the six orders of channels alike.
 ///
 /// ```
-/// # use onelight_lut::Law;
-/// let thorough = Law { count: 1 << 18, ..Law::default() };
+/// # use onelight_lut::SamplingLaw;
+/// let thorough = SamplingLaw { count: 1 << 18, ..SamplingLaw::default() };
 /// assert_eq!(thorough.stops, [-10.0, 10.0]);
 /// ```
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Law {
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct SamplingLaw {
     /// Where the generator starts. A map must not have been fitted to colours of the same seed.
     pub seed: u64,
     /// How many colours are drawn.
@@ -32,7 +31,7 @@ pub struct Law {
     pub fold_places: usize,
 }
 
-impl Law {
+impl SamplingLaw {
     /// The usual seed. Samples to fit to start from others, such as 0, that of
     /// [`SceneSampler::new`](crate::SceneSampler::new).
     pub const SEED: u64 = 271_828;
@@ -65,7 +64,7 @@ impl Law {
     }
 }
 
-impl Default for Law {
+impl Default for SamplingLaw {
     /// 2^14 colours from -10 to +10 stops in bands of four; 100 ascents of 40 evaluations; greys by 1/8 stop.
     fn default() -> Self {
         Self {
@@ -82,8 +81,9 @@ impl Default for Law {
 }
 
 /// How [`certify`](crate::certify) looks for the largest difference.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Search {
     /// Among the drawn colours, then uphill from the worst of them. Evaluates the reference again.
     Ascent,

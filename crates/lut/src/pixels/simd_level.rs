@@ -1,19 +1,19 @@
-use crate::kernel::Level;
+use fearless_simd::Level;
 
 /// A processor's vector instructions. Pixel loops take the best ones by themselves; results differ by rounding.
 ///
 /// For renders that must be the same to the bit on different machines, and for measuring by how much they are not.
 ///
 /// ```
-/// # use onelight_lut::Vectors;
-/// assert!(!Vectors::available().is_empty());
-/// println!("{}", Vectors::best().name());
+/// # use onelight_lut::SimdLevel;
+/// assert!(!SimdLevel::available().is_empty());
+/// println!("{}", SimdLevel::best().name());
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Vectors(Level);
+pub struct SimdLevel(Level);
 
-impl Vectors {
-    /// The best that this machine has.
+impl SimdLevel {
+    /// The best instructions that this machine has.
     pub fn best() -> Self {
         Self(Level::new())
     }
@@ -54,6 +54,7 @@ impl Vectors {
         }
     }
 
+    /// The level that the pixel loops dispatch on.
     pub(super) fn level(self) -> Level {
         self.0
     }
