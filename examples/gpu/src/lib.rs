@@ -28,3 +28,17 @@ pub fn open() -> Result<Option<Headless>, Error> {
         opened => opened.map(Some),
     }
 }
+
+// The Rust of the repository's pages, which the documentation tests compile and run: this package has all that they use.
+
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;
+
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/using.md")]
+struct Using;
+
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/gpu.md")]
+struct Gpu;
