@@ -2,6 +2,7 @@
 
 mod circles;
 mod layers;
+mod pages;
 mod sizes;
 mod source;
 
@@ -66,6 +67,7 @@ fn check(top: &Path) -> Result<Found> {
         found.package(top, folder, layer)?;
     }
     found.faults.extend(sizes::packages(&found.packages));
+    found.faults.extend(pages::pages(top, &members)?);
     Ok(found)
 }
 
