@@ -24,7 +24,7 @@ pub enum Met {
 /// More bytes than any sentence of ours needs.
 const SENTENCE_BYTES: usize = 1000;
 
-/// The law of refusals.
+/// Holds every refusal to the same rule: one plain line of at most [`SENTENCE_BYTES`].
 fn refused(error: &impl std::fmt::Display) -> Met {
     let sentence = error.to_string();
     assert!(!sentence.is_empty(), "a refusal without a word");

@@ -62,7 +62,7 @@ pub(crate) struct ChosenLook {
 }
 
 impl From<Process> for ChosenLook {
-    /// Of built-in stocks.
+    /// A look of built-in stocks, without data sheets of one's own.
     fn from(process: Process) -> Self {
         let camera = process.camera().map_or(onelight::DEFAULT_CAMERA, StockRef::id).to_owned();
         Self { process, films: None, camera }
@@ -70,7 +70,7 @@ impl From<Process> for ChosenLook {
 }
 
 impl ChosenLook {
-    /// The look at work.
+    /// Compiles the look, with the data sheets of one's own that it uses.
     pub(crate) fn look(&self) -> Result<Look> {
         Ok(self.films.as_ref().map_or_else(|| self.process.look(), |films| self.process.look_with(films))?)
     }

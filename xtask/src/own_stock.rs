@@ -143,7 +143,7 @@ mod tests {
         assert_eq!(seen_from(&root.join("gone"), mine), mine);
     }
 
-    /// By coreutils.
+    /// The digest was made by `sha256sum` of GNU coreutils.
     #[test]
     fn the_digest_is_that_of_sha256sum() {
         let texts = ["a\n", "b\n", "c\n", "d\n"];

@@ -1,4 +1,4 @@
-//! Picture files under their paths: read with the path at the start of every message, written whole or not at all.
+//! Picture files under their paths: read with the path at the start of every message, written completely or not at all.
 
 use std::{
     fs::{self, File},
@@ -9,7 +9,7 @@ use std::{
 use anyhow::{Result, anyhow, bail};
 use onelight_picture::{BandSink, Description, Limits, Picture, PictureReader, PngSettings, readable_formats};
 
-use crate::atomic_file::write_whole;
+use crate::atomic_file::write_atomically;
 
 /// Opens the picture in the file `path`.
 ///
@@ -23,9 +23,9 @@ pub(crate) fn open(path: &Path, limits: &Limits) -> Result<PictureReader<'static
 /// Writes `picture` as [`onelight_picture::write_exr`] does.
 ///
 /// # Errors
-/// One sentence that starts with `path`: see [`write_whole`], and what does not fit the format.
+/// One sentence that starts with `path`: see [`write_atomically`], and what does not fit the format.
 pub(crate) fn write_exr(path: &Path, picture: &Picture, texts: &[(&str, &str)]) -> Result<()> {
-    write_whole(path, |file| Ok(picture.write_exr(file, texts)?))
+    write_atomically(path, |file| Ok(picture.write_exr(file, texts)?))
 }
 
 /// Writes as [`onelight_picture::write_exr`] what `fill` hands over, band by band; what `fill` returns.
@@ -38,7 +38,7 @@ pub(crate) fn write_exr_bands<T>(
     texts: &[(&str, &str)],
     fill: impl FnOnce(&mut dyn BandSink) -> Result<T>,
 ) -> Result<T> {
-    write_whole(path, |file| onelight_picture::write_exr(file, picture, texts, fill))
+    write_atomically(path, |file| onelight_picture::write_exr(file, picture, texts, fill))
 }
 
 /// Writes as [`onelight_picture::write_png`] what `fill` hands over, band by band; what `fill` returns.
@@ -52,10 +52,10 @@ pub(crate) fn write_png_bands<T>(
     texts: &[(&str, &str)],
     fill: impl FnOnce(&mut dyn BandSink) -> Result<T>,
 ) -> Result<T> {
-    write_whole(path, |file| onelight_picture::write_png(file, picture, settings, texts, fill))
+    write_atomically(path, |file| onelight_picture::write_png(file, picture, settings, texts, fill))
 }
 
-/// The text `key` of the picture file `path`, if it is there and whole: see [`onelight_picture::text_of_complete_picture`].
+/// The text `key` of the picture file `path`, if it is there and complete: see [`onelight_picture::text_of_complete_picture`].
 pub(crate) fn text_of_complete_picture(path: &Path, key: &str) -> Option<String> {
     let file = File::open(path).ok()?;
     file.metadata().ok()?.is_file().then(|| onelight_picture::text_of_complete_picture(file, key))?

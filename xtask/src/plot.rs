@@ -11,7 +11,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::atomic_file::write_whole;
+use crate::atomic_file::write_atomically;
 
 const SIZE: (u32, u32) = (1500, 500);
 const RED: RGBColor = RGBColor(196, 48, 40);
@@ -25,7 +25,7 @@ const GREY: RGBColor = RGBColor(110, 110, 110);
 /// A curve: points, colour, name.
 type Curve = (Vec<(f64, f64)>, RGBColor, &'static str);
 
-/// One set of curves.
+/// One diagram of a stock's plot: curves over one axis, with its titles.
 struct Panel {
     title: &'static str,
     x: &'static str,
@@ -39,7 +39,7 @@ struct Panel {
 pub(crate) fn write(path: &Path, stock: &Stock) -> Result<()> {
     let mut svg = String::new();
     draw(&mut svg, stock).map_err(|error| anyhow!("{}: the plot cannot be drawn: {error}", path.display()))?;
-    write_whole(path, |file| Ok(file.write_all(svg.as_bytes())?))
+    write_atomically(path, |file| Ok(file.write_all(svg.as_bytes())?))
 }
 
 fn draw(svg: &mut String, stock: &Stock) -> Result<(), Box<dyn std::error::Error>> {

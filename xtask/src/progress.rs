@@ -63,7 +63,7 @@ impl Clock {
         self.parts.iter().filter(|(name, _)| *name == part).map(|(_, time)| *time).sum()
     }
 
-    /// Seconds by part.
+    /// The name of each part with the seconds that it took.
     pub(crate) fn json(&self) -> serde_json::Value {
         self.parts
             .iter()

@@ -73,9 +73,9 @@ pub(crate) struct Switches {
     curve: Vec<Point>,
 }
 
-/// Red, green, blue.
+/// Three numbers on the command line, for red, green and blue.
 type Triple = [f64; 3];
-/// Stops, value.
+/// A point of a tone curve: stops about mid grey, and the display-coded value.
 type Point = [f64; 2];
 
 impl Switches {

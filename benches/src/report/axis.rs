@@ -1,4 +1,4 @@
-//! Axes of charts: values to places, and the values that are written beside them.
+//! Axes of charts: values to positions, and the values that are written beside them.
 
 use super::text::plain;
 
@@ -10,7 +10,7 @@ pub(super) struct Axis {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Scale {
-    /// From 0.
+    /// In equal steps from 0.
     Linear,
     /// By factors. Values that are not above 0 have a place of their own at the lower edge.
     Log,
@@ -22,7 +22,7 @@ pub(super) struct Placed {
     /// Values at the ends, logarithms on a log axis.
     ends: (f64, f64),
     /// Places of the ends; beyond the first lies that of 0 on a log axis.
-    places: (f64, f64),
+    positions: (f64, f64),
     zero: f64,
     ticks: Vec<(f64, String)>,
 }
@@ -39,17 +39,17 @@ impl Axis {
         Self { name: name.to_owned(), scale: Scale::Linear }
     }
 
-    /// Lays the axis out between two places for some values.
-    pub(super) fn placed(&self, places: (f64, f64), values: impl Iterator<Item = f64>) -> Placed {
+    /// Lays the axis out between two positions for some values.
+    pub(super) fn placed(&self, positions: (f64, f64), values: impl Iterator<Item = f64>) -> Placed {
         let values: Vec<f64> = values.filter(|v| v.is_finite()).collect();
-        let direction = (places.1 - places.0).signum();
+        let direction = (positions.1 - positions.0).signum();
         match self.scale {
             Scale::Linear => {
                 let most = values.iter().copied().fold(0.0, f64::max);
                 let step = nice_step(if most > 0.0 { most } else { 1.0 });
                 let count = (1.04 * most / step).ceil().max(1.0);
                 let ticks = (0..=count as usize).map(|i| i as f64 * step).map(|v| (v, plain(v))).collect();
-                Placed { scale: Scale::Linear, ends: (0.0, count * step), places, zero: places.0, ticks }
+                Placed { scale: Scale::Linear, ends: (0.0, count * step), positions, zero: positions.0, ticks }
             }
             Scale::Log => {
                 let above = || values.iter().copied().filter(|v| *v > 0.0);
@@ -58,13 +58,13 @@ impl Axis {
                 let margin = 0.05 * (most / least).log10() + 0.06;
                 let ends = (least.log10() - margin, most.log10() + margin);
                 let has_zero = values.len() > above().count();
-                let from = if has_zero { places.0 + direction * ZERO_GAP } else { places.0 };
-                let zero = places.0 + direction * 0.4 * ZERO_GAP;
+                let from = if has_zero { positions.0 + direction * ZERO_GAP } else { positions.0 };
+                let zero = positions.0 + direction * 0.4 * ZERO_GAP;
                 let mut ticks = log_ticks(ends);
                 if has_zero {
                     ticks.insert(0, (0.0, "0".to_owned()));
                 }
-                Placed { scale: Scale::Log, ends, places: (from, places.1), zero, ticks }
+                Placed { scale: Scale::Log, ends, positions: (from, positions.1), zero, ticks }
             }
         }
     }
@@ -79,7 +79,7 @@ impl Placed {
             Scale::Log => return self.zero,
         };
         let part = (value - self.ends.0) / (self.ends.1 - self.ends.0);
-        self.places.0 + part * (self.places.1 - self.places.0)
+        self.positions.0 + part * (self.positions.1 - self.positions.0)
     }
 
     pub(super) fn ticks(&self) -> &[(f64, String)] {

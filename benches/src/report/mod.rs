@@ -42,7 +42,7 @@ use crate::progress::OnProgress;
 /// Speed and error of every form of some looks, and what their parts cost.
 pub struct Report(Contents);
 
-/// Callbacks of a measurement.
+/// What a caller hears while a report is measured.
 #[derive(Clone, Copy)]
 pub struct Listener<'a> {
     /// Called at every step.

@@ -27,7 +27,7 @@ pub(super) struct OnCard {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Peer {
     pub(super) job: String,
-    /// The other program.
+    /// The name of the other program.
     #[serde(default)]
     pub(super) peer: String,
     /// `warm`: done before; `cold`: for the first time; `process`: the whole program.
@@ -56,7 +56,7 @@ impl OnCard {
 }
 
 impl Peer {
-    /// Their time over ours.
+    /// How many times as long as ours the other program takes.
     pub(super) fn ratio(&self) -> f64 {
         self.theirs_ns_per_pixel / self.ours_ns_per_pixel
     }

@@ -22,7 +22,7 @@ pub(super) enum Marker {
 /// How the points of a series look.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Look {
-    /// Class `c0` to `c5`.
+    /// Which class of the style sheet colours it, `c0` to `c5`.
     pub(super) colour: usize,
     pub(super) marker: Marker,
     pub(super) line: Line,

@@ -77,7 +77,7 @@ pub(super) fn advice(look: &Look, copy: Timing, elsewhere: &Elsewhere) -> Vec<Ad
         .into()
 }
 
-/// What the plot shows.
+/// Sentences that say what a reader sees in the plot of speed against error.
 pub(super) fn reading(look: &Look, copy: Timing) -> Vec<String> {
     let mut said = Vec::new();
     let rows = |kind: Kind| look.rows.iter().filter(move |row| row.kind == kind);

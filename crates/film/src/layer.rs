@@ -51,7 +51,7 @@ impl<T> PerLayer<T> {
     /// What `f` makes of each layer's value and name, or the first error.
     ///
     /// # Errors
-    /// Whatever `f` returns.
+    /// The first error that `f` returns; the layers after it are not tried.
     pub fn try_map<U, E>(self, mut f: impl FnMut(T, &'static str) -> Result<U, E>) -> Result<PerLayer<U>, E> {
         let [red, green, blue] = LAYER_NAMES;
         Ok(PerLayer { red: f(self.red, red)?, green: f(self.green, green)?, blue: f(self.blue, blue)? })

@@ -5,7 +5,7 @@ use onelight_film::{AmountCurve, CharacteristicCurve, Density, Direction, DyeAmo
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-/// The same inputs in every run; PROPTEST_CASES digs deeper, in new places each time.
+/// The same inputs in every run; PROPTEST_CASES digs deeper, with new inputs each time.
 fn cases(count: u32) -> ProptestConfig {
     let mut config = ProptestConfig { failure_persistence: None, ..ProptestConfig::default() };
     if std::env::var_os("PROPTEST_CASES").is_none() {
@@ -46,14 +46,14 @@ proptest! {
         let curve = CharacteristicCurve::new(h.clone(), &density, direction).unwrap();
         let dye = AmountCurve::new(h, &density, direction).unwrap();
         let (first, last) = curve.range().into_inner();
-        let places = (-20..=420).map(|i| LogExposure(first.0 + f64::from(i) / 400.0 * (last.0 - first.0)));
-        let read: Vec<f64> = places.clone().map(|h| curve.density(h).0).collect();
+        let points = (-20..=420).map(|i| LogExposure(first.0 + f64::from(i) / 400.0 * (last.0 - first.0)));
+        let read: Vec<f64> = points.clone().map(|h| curve.density(h).0).collect();
         prop_assert!(never_turns(&read, direction), "{read:?}");
         let sign = if direction == Direction::Rising { 1.0 } else { -1.0 };
-        prop_assert!(places.clone().all(|h| sign * curve.slope(h) >= -1e-9));
+        prop_assert!(points.clone().all(|h| sign * curve.slope(h) >= -1e-9));
         prop_assert!(read.iter().all(|d| (curve.d_min().0 - ROUNDING..=curve.d_max().0 + ROUNDING).contains(d)));
         // Dye is read as density is.
-        prop_assert!(places.zip(read).all(|(h, d)| dye.amount(h).0 == d));
+        prop_assert!(points.zip(read).all(|(h, d)| dye.amount(h).0 == d));
         // Flat beyond the sheet, to infinity.
         for (far, end) in [(f64::NEG_INFINITY, first), (f64::INFINITY, last), (-1e300, first), (1e300, last)] {
             prop_assert_eq!(curve.density(LogExposure(far)), curve.density(end));

@@ -107,7 +107,7 @@ struct Coding {
 ///
 /// # Errors
 ///
-/// If the writer fails.
+/// If the writer fails; what it took until then is an incomplete file.
 ///
 /// ```
 /// use onelight_formats::direct_json;
@@ -170,7 +170,7 @@ pub fn read(input: impl Read) -> Result<DirectForm, Error> {
     parse(&read_text(input, MAX_BYTES)?)
 }
 
-/// [`read`] from text.
+/// The same as [`read`], from text that is in memory.
 ///
 /// # Errors
 ///

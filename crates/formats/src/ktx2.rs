@@ -13,7 +13,7 @@ use crate::text::printable;
 /// The first bytes of every file.
 const IDENTIFIER: [u8; 12] = *b"\xabKTX 20\xbb\r\n\x1a\n";
 
-/// `VK_FORMAT_R16G16B16A16_SFLOAT`.
+/// The number of Vulkan's `VK_FORMAT_R16G16B16A16_SFLOAT`: four half floats.
 const FORMAT: u32 = 97;
 
 /// The program that a file names as its writer: the name under which the first files were written.

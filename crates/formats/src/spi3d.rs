@@ -22,7 +22,7 @@ const MAX_BYTES: u64 = 1 << 30;
 ///
 /// # Errors
 ///
-/// If the writer fails.
+/// If the writer fails; what it took until then is an incomplete file.
 ///
 /// ```
 /// use onelight_formats::spi3d;

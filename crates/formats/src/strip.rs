@@ -36,7 +36,7 @@ pub enum StripGreen {
 ///
 /// # Errors
 ///
-/// If the writer fails.
+/// If the writer fails; what it took until then is an incomplete file.
 ///
 /// ```
 /// use onelight_formats::{PngDepth, StripGreen, strip};

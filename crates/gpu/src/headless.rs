@@ -149,7 +149,7 @@ impl Headless {
     /// `source` through a pass, read back: rows of pixels in the pass's format without gaps between them.
     ///
     /// # Errors
-    /// As [`FilmPass::encode`] and [`Headless::read_back`].
+    /// The same as those of [`FilmPass::encode`] and [`Headless::read_back`].
     pub fn develop(&self, pass: &FilmPass, source: &Texture) -> Result<Vec<u8>, Error> {
         let size = [source.width(), source.height()];
         let target = self.texture(size, pass.target_format(), pass.target_usage() | TextureUsages::COPY_SRC)?;

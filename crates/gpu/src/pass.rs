@@ -55,7 +55,7 @@ impl FilmPass {
     /// A pass for one form and one format of target, with [`LookSettings::default`].
     ///
     /// # Errors
-    /// As [`FilmPass::with_settings`].
+    /// The same as those of [`FilmPass::with_settings`].
     pub fn new<'a>(
         device: &Device,
         queue: &Queue,
@@ -91,7 +91,7 @@ impl FilmPass {
     /// from the next submission on.
     ///
     /// # Errors
-    /// As [`BoundLook::upload`].
+    /// The same as those of [`BoundLook::upload`].
     pub fn upload<'a>(&self, queue: &Queue, form: impl Into<Form<'a>>) -> Result<(), Error> {
         self.look.upload(queue, form)
     }

@@ -39,7 +39,7 @@ pub fn bake(
 ///
 /// # Errors
 ///
-/// As [`bake`].
+/// The same as those of [`bake()`].
 pub fn bake_coordinates(
     size: usize,
     f: impl Fn([f64; 3]) -> [f64; 3] + Sync,

@@ -123,13 +123,13 @@ where
 
     let drawn = samples.drawn(&candidate);
     let differences = drawn.differences(&maps.difference);
-    let overall = Deviation::of(drawn.places, differences.clone())?;
-    let bands = bands::bands(law, drawn.places, &differences)?;
+    let overall = Deviation::of(drawn.colours, differences.clone())?;
+    let bands = bands::bands(law, drawn.colours, &differences)?;
     let (max_found, max_found_at) = match search {
         Search::SamplesOnly => (overall.max, overall.worst),
         Search::Ascent => {
             let measure = |rgb| (maps.difference)(&(maps.reference)(rgb), &(maps.candidate)(rgb));
-            ascent::largest(law, drawn.places, &differences, measure, &count_more)?
+            ascent::largest(law, drawn.colours, &differences, measure, &count_more)?
         }
     };
     Ok(Certificate {

@@ -117,7 +117,7 @@ impl PowerCoding {
         self.encode_in(linear)
     }
 
-    /// [`PowerCoding::encode`] in either type.
+    /// The one definition of [`PowerCoding::encode`], for float32 and float64.
     #[inline]
     pub(crate) fn encode_in<N: Number>(&self, linear: N) -> N {
         self.numbers().encode(linear)

@@ -36,7 +36,7 @@ impl Domain {
     ///
     /// # Errors
     ///
-    /// As [`Domain::new`].
+    /// The same as those of [`Domain::new`].
     pub fn common(min: f32, max: f32) -> Result<Self, Error> {
         Self::new([min; 3], [max; 3])
     }
@@ -71,7 +71,7 @@ impl Domain {
         self.normalised(rgb)
     }
 
-    /// [`Domain::normalise`] in either precision.
+    /// The one definition of [`Domain::normalise`], for float32 and float64.
     #[inline]
     pub(crate) fn normalised<N: Number>(&self, rgb: [N; 3]) -> [N; 3] {
         std::array::from_fn(|c| {

@@ -55,7 +55,7 @@ impl ExponentialSum {
         self.apply_in(x)
     }
 
-    /// [`ExponentialSum::apply`] in either type.
+    /// The one definition of [`ExponentialSum::apply`], for float32 and float64.
     #[inline]
     pub(crate) fn apply_in<N: Number>(&self, x: [N; 3]) -> [N; 3] {
         let mut sums = [N::ZERO; 3];

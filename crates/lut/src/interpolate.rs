@@ -83,7 +83,7 @@ pub(crate) fn cell<N: Number>(coordinate: N, size: usize) -> (usize, N) {
 pub(crate) type Weights<N> = [(u32, N); 8];
 
 /// The weights by which entries make the value at coordinates: those of the other functions here, for fitting and for reading
-/// in float64. Unused places hold weight 0.
+/// in float64. Unused positions hold weight 0.
 pub(crate) fn weights<N: Number>(coordinates: [N; 3], size: usize, how: Interpolation) -> Weights<N> {
     let place = Place::new(coordinates, size);
     let [r, g, b] = place.step;

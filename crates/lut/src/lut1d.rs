@@ -81,7 +81,7 @@ impl Lut1d {
         self.apply_in(rgb)
     }
 
-    /// [`Lut1d::apply`] in either type.
+    /// The one definition of [`Lut1d::apply`], for float32 and float64.
     #[inline]
     pub(crate) fn apply_in<N: Number>(&self, rgb: [N; 3]) -> [N; 3] {
         let coordinates = self.domain.normalised(rgb);

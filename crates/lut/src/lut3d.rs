@@ -98,7 +98,7 @@ impl Lut3d {
         .to_array()
     }
 
-    /// [`Lut3d::apply`] in float64.
+    /// [`Lut3d::apply`] in float64, from the same stored entries.
     pub(crate) fn apply_f64(&self, coordinates: [f64; 3], interpolation: Interpolation) -> [f64; 3] {
         let entries = self.entries.entries();
         let mut sum = [0.0; 3];

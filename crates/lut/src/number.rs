@@ -44,7 +44,7 @@ pub(crate) trait Number:
     /// The logarithm to base 2 of a normal positive number.
     fn log2(self) -> Self;
 
-    /// 2 to this power.
+    /// 2 to the power of this number.
     fn exp2(self) -> Self;
 
     /// A positive number to a power.

@@ -46,7 +46,7 @@ impl SceneSampler {
     ///
     /// # Errors
     ///
-    /// As [`SceneSampler::new`].
+    /// The same as those of [`SceneSampler::new`].
     pub fn with_seed(stops: RangeInclusive<f64>, seed: u64) -> Result<Self, Error> {
         let [low, high] = [*stops.start(), *stops.end()];
         for (what, found) in [("lowest stop of a scene sampler", low), ("highest stop of a scene sampler", high)] {

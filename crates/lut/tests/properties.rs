@@ -9,7 +9,7 @@ use onelight_lut::{
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-/// The same inputs in every run; PROPTEST_CASES digs deeper, in new places each time.
+/// The same inputs in every run; PROPTEST_CASES digs deeper, with new inputs each time.
 fn cases(count: u32) -> ProptestConfig {
     let mut config = ProptestConfig { failure_persistence: None, ..ProptestConfig::default() };
     if std::env::var_os("PROPTEST_CASES").is_none() {
@@ -49,7 +49,7 @@ fn shaper() -> impl Strategy<Value = Shaper> {
 }
 
 /// Every way to map one colour.
-fn ways(form: &impl PixelMap, rgb: [f32; 3]) -> Vec<[f32; 3]> {
+fn implementations(form: &impl PixelMap, rgb: [f32; 3]) -> Vec<[f32; 3]> {
     let mut all = vec![form.apply(rgb)];
     for level in SimdLevel::available() {
         // In the middle of other pixels, and where vectors end.
@@ -172,7 +172,7 @@ proptest! {
         let at = rgb.map(|v| shaper.encode_f32(v));
         for how in BOTH {
             let form = PlainLut::new(shaper, table.clone(), how);
-            for out in ways(&form, rgb) {
+            for out in implementations(&form, rgb) {
                 prop_assert!(is_between(out, corners(&table, at)), "{how:?} {rgb:?}: {out:?} in {:?}", corners(&table, at));
             }
         }
@@ -258,11 +258,11 @@ proptest! {
     }
 }
 
-/// All ways give the result of float64 to `slack` of 1 or of itself.
+/// All implementations give the result of float64 to `slack` of 1 or of itself.
 fn agrees(form: &impl PixelMap, rgb: [f32; 3], slack: f64) -> Result<(), TestCaseError> {
     let exact = form.apply_f64(rgb.map(f64::from));
     prop_assert!(exact.iter().all(|v| v.is_finite()), "{rgb:?}: {exact:?}");
-    for out in ways(form, rgb) {
+    for out in implementations(form, rgb) {
         for (out, exact) in out.into_iter().zip(exact) {
             prop_assert!((f64::from(out) - exact).abs() <= slack * exact.abs().max(1.0), "{rgb:?}: {out} for {exact}");
         }

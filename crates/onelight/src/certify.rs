@@ -112,7 +112,7 @@ impl<'a> Certifier<'a> {
         Ok(Self { look, difference: look.difference()?, luminance: look.spaces().luminance()? })
     }
 
-    /// Colours by a law, in the primaries of `space`, with the look's results; and the ColorChecker.
+    /// The colours that `law` draws, in the primaries of `space`, and the ColorChecker, each with the exact look's result.
     ///
     /// # Errors
     /// If the law is out of range.

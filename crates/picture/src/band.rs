@@ -28,7 +28,7 @@ pub(crate) const BAND_PIXELS: usize = 1 << 20;
 /// let band = reader.next_band()?.expect("a picture has at least one band");
 /// assert_eq!((band.top(), band.rows(), band.width()), (0, 2, 4));
 ///
-/// // One stop brighter.
+/// // One stop brighter: twice the light.
 /// band.rgb_mut().iter_mut().for_each(|rgb| *rgb = rgb.map(|v| 2.0 * v));
 /// assert_eq!(band.rgb()[7], [1.0; 3]);
 /// # Ok::<(), onelight_picture::Error>(())
@@ -188,7 +188,7 @@ pub(crate) trait Bands: Send {
     /// Fills `band` with the next rows; without rows where there are no more.
     fn next_into(&mut self, band: &mut Band) -> Result<(), Error>;
 
-    /// What that takes.
+    /// How much memory filling a band takes at most.
     fn memory(&self) -> ReadingMemory;
 }
 

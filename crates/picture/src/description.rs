@@ -15,7 +15,7 @@ pub struct Description {
     pub width: usize,
     /// Height of the data window, in pixels.
     pub height: usize,
-    /// What a pixel holds.
+    /// What a pixel holds: colour, or colour and coverage.
     pub channels: Channels,
     /// Where the pixels lie and what part of the plane is shown.
     pub windows: Windows,
@@ -40,7 +40,7 @@ impl Description {
     }
 }
 
-/// What a pixel holds.
+/// What a pixel holds: colour alone, or colour and coverage.
 ///
 /// ```
 /// use onelight_picture::Channels;
@@ -49,9 +49,9 @@ impl Description {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Channels {
-    /// Colour.
+    /// Red, green and blue; the picture is opaque.
     Rgb,
-    /// Colour and coverage (alpha).
+    /// Red, green, blue, and coverage (alpha) from 0 to 1.
     Rgba,
 }
 
@@ -129,14 +129,14 @@ pub struct Chromaticities {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Source {
-    /// OpenEXR: linear by convention.
+    /// OpenEXR, whose values are linear light by convention.
     Exr,
     /// PNG: display-coded unless it says otherwise.
     Png {
         /// Bits of a sample: 8 or 16. Fewer are widened to 8.
         bits: u8,
     },
-    /// TIFF.
+    /// TIFF: integers are display-coded as a rule, floats linear.
     Tiff {
         /// Bits of a sample: 8, 16, 32 or 64.
         bits: u8,

@@ -100,7 +100,7 @@ impl Error {
 /// The reasons behind an [`Error`].
 #[derive(Debug)]
 pub(crate) enum Kind {
-    /// Reading failed.
+    /// The reader failed: a device, a network or a pipe, not the file's content.
     Io(io::Error),
     /// There is not one byte.
     Empty {

@@ -178,7 +178,7 @@ struct Row<'a> {
     bytes_per_pixel: usize,
 }
 
-/// Halves widened at once.
+/// Half floats that are widened at once; two buffers of this length are on the stack.
 const HALVES: usize = 256;
 
 impl Row<'_> {

@@ -20,7 +20,7 @@ use crate::{
 pub(crate) struct Grid {
     /// Width and height of a block that is not cut off by the border.
     pub(crate) block: Vec2<usize>,
-    /// Blocks across and down.
+    /// How many blocks the part has across and down.
     pub(crate) count: Vec2<usize>,
 }
 
@@ -90,7 +90,7 @@ impl<'a> Blocks<'a> {
             let (entries, _) = bytes.as_chunks::<8>();
             offsets.iter_mut().zip(entries).for_each(|(offset, entry)| *offset = u64::from_le_bytes(*entry));
         }
-        // What can be told now is not told after half of the picture.
+        // A fault that the table shows is reported before any pixel is read, not after half of the picture.
         for (index, offset) in offsets.iter().enumerate() {
             if *offset == 0 {
                 return Err(self.block(index, BlockProblem::Missing));
@@ -115,7 +115,7 @@ impl<'a> Blocks<'a> {
         blocks
     }
 
-    /// The packed block `index`.
+    /// Reads the block `index` as it is packed in the file.
     pub(crate) fn packed(&mut self, index: usize, meta: &MetaData) -> Result<Chunk, Error> {
         let header = &meta.headers[self.part];
         let offset = self.offsets[index];

@@ -18,11 +18,11 @@ const NAME_BYTES_LISTED: usize = 600;
 /// The part and the channels to read.
 #[derive(Debug)]
 pub(crate) struct Layout {
-    /// Index of the part.
+    /// Which of the file's parts this is, from 0.
     pub(crate) part: usize,
     /// The channels red, green and blue; the same thrice for a grey picture.
     pub(crate) rgb: [Plane; 3],
-    /// The channel of coverage.
+    /// The channel of coverage (alpha), if the part has one.
     pub(crate) alpha: Option<Plane>,
     /// What was chosen among several.
     pub(crate) notes: Vec<String>,

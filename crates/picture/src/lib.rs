@@ -6,7 +6,7 @@
 //! - [`Picture`] is a small picture held whole;
 //! - [`Limits`] bound what a file may cost. Sizes in a header are claims, which are held against them and against the
 //!   length of the file before memory is taken;
-//! - [`text_of_complete_picture`] finds a text that was written into a file, if the file is whole.
+//! - [`text_of_complete_picture`] finds a text that was written into a file, if the file is complete.
 //!
 //! Readers are any `Read + Seek`, writers any `Write + Seek` (PNG: any `Write`): paths, and what is under them when writing
 //! fails half way, are the caller's. All threads of the current rayon pool unpack, convert and pack.
@@ -45,7 +45,7 @@
 //! caller undoes; [`Description::source`] hints at which. NaN, infinities and negatives are kept. Colour that a file holds
 //! premultiplied is divided by its coverage on the way in and multiplied on the way out, so that a caller sees the colour of
 //! things and not of how much of a pixel they cover. Where coverage is 0, negative, not finite or subnormal, colour is left
-//! as it is both ways.
+//! as it is in both directions.
 //!
 //! # Damaged and hostile files
 //! They give an [`Error`] of one sentence. A decoder's panic is caught and becomes one; whoever wants no message of it on

@@ -19,7 +19,7 @@ use crate::{
 /// `None` where it has none, or the file is damaged, cut short or of another kind.
 ///
 /// Beginning and end are read, not the pixels: a file that is written under another name, and renamed when it is complete, is
-/// known to be whole by that. It tells a program whether a file is what it would write again.
+/// known to be complete by that. A program learns from it whether a file is what it would write again.
 ///
 /// ```
 /// use std::io::Cursor;

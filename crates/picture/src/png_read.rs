@@ -64,7 +64,7 @@ struct PngBands<'a> {
     width: usize,
     height: usize,
     channels: Channels,
-    /// Samples of a pixel.
+    /// Samples of a pixel in the file, 1 to 4.
     samples: usize,
     bits: u8,
     row_bytes: usize,

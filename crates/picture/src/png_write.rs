@@ -29,7 +29,7 @@ use crate::{
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PngSettings {
-    /// Bits of a sample.
+    /// Bits of a sample: 8 or 16.
     pub bits: PngBits,
     /// What the file says of its values; by default it says nothing, which viewers take for sRGB.
     pub tag: Option<ColourTag>,
@@ -63,7 +63,7 @@ pub enum PngTransfer {
     Srgb,
     /// A power of 1 / 2.4.
     Gamma24,
-    /// None: values are light.
+    /// No curve: the values are linear light.
     Linear,
 }
 

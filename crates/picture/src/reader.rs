@@ -38,11 +38,11 @@ pub struct PictureReader<'a> {
     description: Description,
     bands: Box<dyn Bands + 'a>,
     name: String,
-    /// What [`PictureReader::next_band`] lends.
+    /// The pixels that [`PictureReader::next_band`] lends, kept so that each band uses the same memory.
     band: Band,
 }
 
-/// Opens the picture in a file; the format is told by the file's first bytes, and the picture begins where the reader does.
+/// Opens the picture in a file; the format is recognised by the file's first bytes, and the picture begins where the reader does.
 ///
 /// Pixels are values of the file: linear for OpenEXR and floating-point TIFF, 0 to 1 for integers, whose transfer curve the
 /// caller undoes. Colours are straight (not premultiplied); NaN, infinities and negatives are kept. `name` is what the caller
@@ -90,7 +90,7 @@ impl PictureReader<'_> {
     /// hold several bands, as one is read while another is at work.
     ///
     /// # Errors
-    /// As [`PictureReader::next_band`].
+    /// The same as those of [`PictureReader::next_band`].
     pub fn next_into(&mut self, band: &mut Band) -> Result<(), Error> {
         self.bands.next_into(band).map_err(|error| error.named(&self.name))
     }

@@ -24,7 +24,7 @@ use crate::{
 /// More than Deflate, LZW or PackBits can give for one byte.
 const EXPANSION: u64 = 2048;
 
-/// Fewer samples than these are not worth a thread.
+/// Samples that one task widens: for fewer, handing them to a thread takes longer than the work.
 const SAMPLES_TOGETHER: usize = 1 << 14;
 
 /// Opens the first picture in a TIFF file of `length` bytes.
@@ -136,7 +136,7 @@ struct TiffBands<'a> {
     size: [usize; 2],
     /// Width and height of a strip or tile.
     chunk: [usize; 2],
-    /// Samples of a pixel.
+    /// Samples of a pixel in the file, 1 to 4.
     samples: usize,
     sample_bytes: u64,
     channels: Channels,

@@ -36,7 +36,7 @@ impl EquivalentNeutralDensity {
     /// A density from 0.05 to 3.
     ///
     /// # Errors
-    /// If it is another.
+    /// If the density is outside 0.05 to 3, or not a number.
     pub fn new(density: f64) -> Result<Self, Error> {
         if (0.05..=3.0).contains(&density) {
             Ok(Self(density))

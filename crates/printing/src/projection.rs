@@ -145,7 +145,7 @@ impl Projection {
     /// Amounts that look like the bare lamp behind a grey filter of `density`; `stock` is named if there are none.
     ///
     /// # Errors
-    /// If no amounts do.
+    /// If no amounts of the dyes give that light.
     pub fn neutral_amounts(&self, density: f64, stock: &str) -> Result<PerLayer<DyeAmount>, Error> {
         let target = self.lamp_xyz * 10f64.powf(-density);
         let mut amounts = Vector3::repeat(density);

@@ -26,7 +26,7 @@ impl Kelvin {
     /// The light of a cinema screen.
     pub const THEATRE: Self = Self(5500.0);
 
-    /// A temperature in kelvin.
+    /// A colour temperature of so many kelvin.
     ///
     /// # Errors
     /// Outside 500 K to 100000 K.

@@ -111,7 +111,7 @@ impl<Q: Quantity> SpectralDistribution<Q> {
         Ok(Self::trusted(shape, values))
     }
 
-    /// The values of `f(wavelength_nm)`.
+    /// The values that `f` has at each wavelength of the grid, which it gets in nm.
     ///
     /// # Errors
     /// If a value is not allowed for `Q`.
@@ -173,7 +173,7 @@ impl<L: Light> SpectralDistribution<L> {
     /// What a receiver makes of this light: the integral of power times responsivity over nm. Both must share one grid.
     ///
     /// # Panics
-    /// If the grids differ.
+    /// If the two distributions are on different grids.
     #[must_use]
     pub fn response(&self, receiver: &SpectralDistribution<quantity::Responsivity>) -> f64 {
         self.zip::<_, quantity::SignedPower>(receiver, |a, b| a * b).integral()
@@ -199,7 +199,7 @@ impl SpectralDistribution<quantity::Power> {
     /// The light behind a filter. Both must share one grid.
     ///
     /// # Panics
-    /// If the grids differ.
+    /// If the two distributions are on different grids.
     #[must_use]
     pub fn through(&self, filter: &SpectralDistribution<quantity::Transmittance>) -> Self {
         self.zip(filter, |a, b| (a * b).min(f64::MAX))
@@ -208,7 +208,7 @@ impl SpectralDistribution<quantity::Power> {
     /// The light reflected by a surface. Both must share one grid.
     ///
     /// # Panics
-    /// If the grids differ.
+    /// If the two distributions are on different grids.
     #[must_use]
     pub fn reflected_by(&self, surface: &SpectralDistribution<quantity::Reflectance>) -> Self {
         self.zip(surface, |a, b| a * b)
@@ -232,7 +232,7 @@ impl SpectralDistribution<quantity::OpticalDensity> {
     /// Two layers on one another: densities add, and are held within 300 of 0. Both must share one grid.
     ///
     /// # Panics
-    /// If the grids differ.
+    /// If the two distributions are on different grids.
     #[must_use]
     pub fn stacked_on(&self, other: &Self) -> Self {
         self.zip(other, |a, b| held(a + b))

@@ -20,7 +20,7 @@ pub struct Pchip {
 }
 
 impl Pchip {
-    /// Through `(x[i], y[i])`.
+    /// The curve through the points `(x[i], y[i])`.
     ///
     /// # Errors
     /// If there are fewer than two nodes, the counts differ, a value is not finite, x does not increase, or two nodes lie so far or so

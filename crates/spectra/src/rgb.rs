@@ -129,7 +129,7 @@ impl RgbSpace {
     /// XYZ to linear RGB: the inverse of [`RgbSpace::to_xyz`].
     ///
     /// # Errors
-    /// As [`RgbSpace::to_xyz`].
+    /// The same as those of [`RgbSpace::to_xyz`].
     pub fn from_xyz(&self) -> Result<Matrix3<f64>, Error> {
         let refuse = || ErrorKind::Chromaticity { what: "RGB space", x: self.white.x, y: self.white.y };
         self.to_xyz()?.try_inverse().ok_or_else(|| refuse().into())
@@ -139,7 +139,7 @@ impl RgbSpace {
     /// the whites of the two. Between the same primaries it is the identity to the last bit.
     ///
     /// # Errors
-    /// As [`RgbSpace::to_xyz`].
+    /// The same as those of [`RgbSpace::to_xyz`].
     pub fn to_about(&self, target: &Self, white: Chromaticity) -> Result<Matrix3<f64>, Error> {
         let (to_xyz, from_xyz) = (self.with_white(white).to_xyz()?, target.with_white(white).from_xyz()?);
         // Not what rounding makes of it: 1e-17 of a channel at 1e30 drowns the other two.

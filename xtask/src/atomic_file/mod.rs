@@ -29,7 +29,7 @@ pub(crate) use self::{interrupt::say_when_stopped, temporary::remove_leftovers};
 /// write-protected, the disk is full, or what `write` says; a [`NotOfThisFile`] of `write` as it is. Nothing
 /// half-written is left, also not where the run is stopped (Ctrl-C, SIGTERM); what a killed one leaves is for
 /// [`remove_leftovers`].
-pub(crate) fn write_whole<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<T>) -> Result<T> {
+pub(crate) fn write_atomically<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<T>) -> Result<T> {
     replace(path, write).map_err(|error| match error.downcast() {
         Ok(NotOfThisFile(error)) => error,
         Err(error) => anyhow!("{}: {error:#}", path.display()),
@@ -49,12 +49,12 @@ impl fmt::Display for NotOfThisFile {
 impl std::error::Error for NotOfThisFile {}
 
 /// Files that belong together: all are complete on disk before the first takes its name.
-pub(crate) struct WholeSet {
+pub(crate) struct AtomicFiles {
     folder: PathBuf,
     files: Vec<(String, Vec<u8>)>,
 }
 
-impl WholeSet {
+impl AtomicFiles {
     /// No files yet, for an existing folder.
     pub(crate) fn in_folder(folder: &Path) -> Self {
         Self { folder: folder.to_owned(), files: Vec::new() }
@@ -68,7 +68,7 @@ impl WholeSet {
     /// Writes all of them; their paths in the order they were added.
     ///
     /// # Errors
-    /// As [`write_whole`]; then no file has been replaced, unless a rename itself fails.
+    /// As [`write_atomically`]; then no file has been replaced, unless a rename itself fails.
     pub(crate) fn write(self) -> Result<Vec<PathBuf>> {
         let mut ready = Vec::new();
         for (name, contents) in &self.files {
@@ -114,7 +114,7 @@ fn prepare<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<T>
     Ok((value, Ready { target: target.path, temporary }))
 }
 
-/// Where the finished file goes.
+/// Where the complete file goes.
 struct Target {
     path: PathBuf,
     folder: PathBuf,

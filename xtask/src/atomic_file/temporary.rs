@@ -1,4 +1,4 @@
-//! Files under a name of their own until they are whole.
+//! Files under a name of their own until they are complete.
 //!
 //! The name begins with a digest of the name that is wanted, so that a later run finds what a killed one left. A
 //! running one holds a lock on its file, which ends with the process: only what no one holds is removed.

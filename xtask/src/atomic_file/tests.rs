@@ -10,10 +10,10 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 #[test]
-fn a_file_appears_whole() {
+fn a_file_appears_complete() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.txt");
-    let seen_while_writing = write_whole(&path, |file| {
+    let seen_while_writing = write_atomically(&path, |file| {
         file.write_all(b"one")?;
         Ok(path.exists())
     })
@@ -28,7 +28,7 @@ fn a_failure_leaves_the_old_file_and_nothing_else() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.txt");
     fs::write(&path, b"old").unwrap();
-    let error = write_whole(&path, |file| -> Result<()> {
+    let error = write_atomically(&path, |file| -> Result<()> {
         file.write_all(&[0; 100_000])?;
         bail!("the film tore")
     })
@@ -39,11 +39,11 @@ fn a_failure_leaves_the_old_file_and_nothing_else() {
 }
 
 #[test]
-fn a_set_appears_whole_or_not_at_all() {
+fn files_appear_together_or_not_at_all() {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("c")).unwrap();
     let set = |last: &str| {
-        let mut set = WholeSet::in_folder(folder.path());
+        let mut set = AtomicFiles::in_folder(folder.path());
         ["a", "b", last].into_iter().for_each(|name| set.add(name, name.as_bytes().to_vec()));
         set.write()
     };
@@ -57,8 +57,9 @@ fn a_set_appears_whole_or_not_at_all() {
 fn a_panic_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.txt");
-    let outcome =
-        std::panic::catch_unwind(|| write_whole(&path, |_| -> Result<()> { std::panic::resume_unwind(Box::new(())) }));
+    let outcome = std::panic::catch_unwind(|| {
+        write_atomically(&path, |_| -> Result<()> { std::panic::resume_unwind(Box::new(())) })
+    });
     assert!(outcome.is_err());
     assert!(names(folder.path()).is_empty());
 }
@@ -76,7 +77,7 @@ fn wrong_places_are_named_in_one_sentence() {
         (PathBuf::from(""), "is not the name of a file"),
         (folder.path().join("new/"), "is not the name of a file"),
     ] {
-        let error = write_whole(&path, |_| Ok(())).unwrap_err().to_string();
+        let error = write_atomically(&path, |_| Ok(())).unwrap_err().to_string();
         assert!(error.contains(expected), "{error}");
         assert!(!error.contains('\n'));
     }
@@ -92,15 +93,15 @@ fn links_permissions_and_devices_are_respected() {
     fs::write(&real, b"old").unwrap();
     fs::set_permissions(&real, fs::Permissions::from_mode(0o640)).unwrap();
     symlink(&real, &link).unwrap();
-    write_whole(&link, |file| Ok(file.write_all(b"new")?)).unwrap();
+    write_atomically(&link, |file| Ok(file.write_all(b"new")?)).unwrap();
     assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
     assert_eq!(fs::read(&real).unwrap(), b"new");
     assert_eq!(fs::metadata(&real).unwrap().permissions().mode() & 0o777, 0o640);
 
     fs::set_permissions(&real, fs::Permissions::from_mode(0o440)).unwrap();
-    let error = write_whole(&real, |_| Ok(())).unwrap_err().to_string();
+    let error = write_atomically(&real, |_| Ok(())).unwrap_err().to_string();
     assert!(error.contains("write-protected"), "{error}");
-    let error = write_whole(Path::new("/dev/null"), |_| Ok(())).unwrap_err().to_string();
+    let error = write_atomically(Path::new("/dev/null"), |_| Ok(())).unwrap_err().to_string();
     assert!(error.contains("not a regular file"), "{error}");
 }
 
@@ -121,7 +122,7 @@ fn leftovers_go_and_running_files_stay() {
     let (of_a, of_b) = (left(&a), left(&b));
     assert!(of_a != of_b && of_a.starts_with(".onelight-") && of_a.ends_with(".part"));
     fs::write(folder.path().join(".onelight-a.png.part"), "another's").unwrap();
-    write_whole(&a, |_| {
+    write_atomically(&a, |_| {
         remove_leftovers([a.as_path(), &folder.path().join("no/such/a.png")]);
         assert!(!folder.path().join(&of_a).exists() && folder.path().join(&of_b).exists());
         Ok(())
@@ -136,7 +137,7 @@ fn leftovers_go_and_running_files_stay() {
 fn long_names_are_written() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("n".repeat(255));
-    write_whole(&path, |file| Ok(file.write_all(b"one")?)).unwrap();
+    write_atomically(&path, |file| Ok(file.write_all(b"one")?)).unwrap();
     remove_leftovers([path.as_path()]);
     assert_eq!(fs::read(&path).unwrap(), b"one");
 }

@@ -9,7 +9,7 @@ use onelight::lut::{Certificate, Deviation, SamplingLaw, Search, Storage, deviat
 use onelight::{DirectSettings, Entries, Look, Nodes, Process, TableCoding, TransferCurve, Word, WorkingSpace};
 use serde_json::json;
 
-use crate::atomic_file::WholeSet;
+use crate::atomic_file::AtomicFiles;
 use crate::look::LookArguments;
 use crate::progress::{Clock, bar};
 use crate::words::words;
@@ -90,7 +90,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     };
     let measured_line = measured.as_ref().map(|measured| summary(measured.srgb()));
     let comments = baked.comments(measured_line.as_deref());
-    let mut files = WholeSet::in_folder(&folder);
+    let mut files = AtomicFiles::in_folder(&folder);
     let mut json = json(arguments, process, &recipe, &baked, measured.as_ref());
     clock.time("write", || -> Result<()> {
         for format in &formats {
@@ -221,7 +221,7 @@ struct Measured {
     files: Vec<(FileFormat, Certificate)>,
     rec2020: Option<Certificate>,
     scene: Option<Deviation>,
-    /// Of the look itself.
+    /// The tint of greys that the look itself has, whatever it is baked to.
     tint: Tint,
 }
 

@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     use std::fmt::Write as _;
 
-    use crate::atomic_file::write_whole;
+    use crate::atomic_file::write_atomically;
     use crate::folders;
 
     let folder = match &arguments.out {
@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let found = onelight_benches::gpu::measure(arguments.software)?;
     let json = found.json();
     let path = folder.join("gpu.json");
-    write_whole(&path, |file| Ok(serde_json::to_writer_pretty(file, &json)?))?;
+    write_atomically(&path, |file| Ok(serde_json::to_writer_pretty(file, &json)?))?;
     let mut text = found.text();
     let _ = writeln!(text, "{}", folders::shown(&path));
     if let Some(fault) = found.fault() {

@@ -11,7 +11,7 @@ use onelight::Process;
 use onelight_benches::report::{self, Elsewhere, Listener, Scope};
 
 use super::certify::with_films;
-use crate::atomic_file::WholeSet;
+use crate::atomic_file::AtomicFiles;
 use crate::look::LookArguments;
 use crate::progress::{Clock, bars};
 use crate::{Report, folders};
@@ -54,13 +54,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let found = report::measure(&processes(&arguments.look)?, scope, elsewhere, listener)?;
     let clock = clock.into_inner();
     let found = found.with_clock(clock.sentence());
-    let mut files = WholeSet::in_folder(&folder);
+    let mut files = AtomicFiles::in_folder(&folder);
     let mut json = found.json(&clock.json());
     files.add("index.html", found.html().into_bytes());
     files.add("report.json", serde_json::to_vec_pretty(&json)?);
     let mut written = files.write()?;
     if arguments.commit {
-        let mut picture = WholeSet::in_folder(&folders::workspace()?.join("docs/images"));
+        let mut picture = AtomicFiles::in_folder(&folders::workspace()?.join("docs/images"));
         picture.add("speed-error.svg", found.plot().into_bytes());
         written.extend(picture.write()?);
     }

@@ -8,7 +8,7 @@ use onelight::{Process, StockKind, stock, stock_ids};
 use onelight_benches::stability::{Card, Contents, STEPS, rows as measured};
 
 use super::certify::{of_the_readme, with_films};
-use crate::atomic_file::WholeSet;
+use crate::atomic_file::AtomicFiles;
 use crate::look::LookArguments;
 use crate::progress::{Clock, bar};
 use crate::{Report, folders};
@@ -44,7 +44,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     progress.finish_and_clear();
     let contents = Contents { card: card.as_ref().map(|card| card.name().to_owned()), rows: &rows };
     let mut json = contents.json();
-    let mut files = WholeSet::in_folder(&folder);
+    let mut files = AtomicFiles::in_folder(&folder);
     files.add("stability.md", contents.markdown().into_bytes());
     files.add("stability.json", serde_json::to_vec_pretty(&json)?);
     let written: Vec<String> = files.write()?.iter().map(|file| folders::shown(file)).collect();

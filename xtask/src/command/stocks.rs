@@ -19,8 +19,8 @@ pub(crate) struct Arguments {
     #[arg(long)]
     check: bool,
     /// Say of every camera film what is reproduced, and how nearly (docs/stocks.md says what the columns are)
-    #[arg(long, conflicts_with_all = ["id", "check"])]
-    likeness: bool,
+    #[arg(long, alias = "likeness", conflicts_with_all = ["id", "check"])]
+    fidelity: bool,
     /// Folder for the plot of one stock [default: target/onelight/stocks]
     #[arg(long, value_name = "DIR", requires = "id")]
     out: Option<PathBuf>,
@@ -33,7 +33,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let (text, json) = match &arguments.id {
         Some(id) => one(id, arguments.out.as_deref())?,
         None if arguments.check => check()?,
-        None if arguments.likeness => {
+        None if arguments.fidelity => {
             let found = sheet_fidelity::all()?;
             (sheet_fidelity::table(&found), serde_json::to_value(found)?)
         }

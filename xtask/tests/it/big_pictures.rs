@@ -66,7 +66,7 @@ fn memory_does_not_grow_with_the_picture() {
     let mut child = develop(folder.path(), &["big.exr", "out.png", "--form", "plain"]).spawn().unwrap();
     let peak = peak(&mut child);
     assert!(child.wait().unwrap().success());
-    // Three bands, what they are unpacked from and packed to, and the table: 80 MiB. The kernel must have told.
+    // Three bands, what they are unpacked from and packed to, and the table: 80 MiB. The kernel must have reported a peak.
     assert!(peak > 10_000 && peak < whole / 2, "{peak} KiB, of {whole} KiB in the picture");
 }
 

@@ -220,7 +220,9 @@ fn commands_that_only_look_work() {
     let velvia: serde_json::Value =
         serde_json::from_str(&done(folder.path(), &["stocks", "fuji-velvia-50", "--json"])).unwrap();
     assert_eq!(velvia["kind"], "reversal");
-    assert!(done(folder.path(), &["stocks", "--likeness"]).contains("kodak-portra-400"));
+    let fidelity = done(folder.path(), &["stocks", "--fidelity"]);
+    assert!(fidelity.contains("kodak-portra-400"));
+    assert_eq!(done(folder.path(), &["stocks", "--likeness"]), fidelity, "the name of before");
     for command in ["bake", "compare", "develop", "light", "stability", "stocks", "fixtures", "tidy"] {
         assert!(done(folder.path(), &[command, "--help"]).contains("Usage"));
     }
@@ -403,7 +405,7 @@ fn a_data_sheet_of_ones_own_is_a_film_like_any_other() {
     for form in ["structured", "direct"] {
         done(folder, &quickly(&["--camera", "mine", "--form", form, "--out", form]));
     }
-    // A changed sheet is told, and taken where it is asked for.
+    // A changed sheet is refused, and taken where it is asked for.
     let sheet = folder.join("mine/stock.toml");
     fs::write(&sheet, fs::read_to_string(&sheet).unwrap() + "# changed\n").unwrap();
     let changed = quickly(&["--look", "looks/own/look.toml", "--out", "looks/changed"]);

@@ -1,4 +1,4 @@
-//! Four hundred damaged pictures through the real `develop`: each ends with a whole picture, or with one sentence and nothing.
+//! Four hundred damaged pictures through the real `develop`: each ends with a complete picture, or with one sentence and nothing.
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Output, Stdio};
@@ -90,7 +90,7 @@ fn end_of(mut child: Child, name: &str) -> Output {
 
 /// Develops one file; whether there was a picture in it.
 fn survives(folder: &Path, index: usize, name: &str, bytes: &[u8]) -> bool {
-    // The format is told by the bytes.
+    // The format is recognised by the bytes.
     let (input, output) = (format!("{index}.in"), format!("{index}.{}", ["png", "exr"][index % 2]));
     fs::write(folder.join(&input), bytes).unwrap();
     let done = end_of(developing(folder, &input, &output), name);

@@ -115,7 +115,7 @@ fn a_killed_job_goes_on_to_the_same_files() {
 
 #[cfg(unix)]
 #[test]
-fn a_job_that_is_told_to_stop_leaves_whole_files() {
+fn a_job_that_is_stopped_leaves_complete_files() {
     let folder = with_frames(60, [64, 36]);
     let folder = folder.path();
     for (name, status) in [("-INT", 130), ("-TERM", 143)] {
@@ -134,7 +134,7 @@ fn a_job_that_is_told_to_stop_leaves_whole_files() {
 }
 
 #[test]
-fn bad_frames_are_told_and_the_rest_go_on() {
+fn bad_frames_are_reported_and_the_rest_go_on() {
     let folder = with_frames(6, [20, 10]);
     let folder = folder.path();
     let frame = |number: usize| folder.join(format!("in/shot.{number:04}.exr"));

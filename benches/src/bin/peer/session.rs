@@ -156,7 +156,7 @@ fn known(film: &mut Option<Reference>) -> Result<&Reference, Box<dyn Error>> {
     film.as_ref().ok_or_else(|| "no film".into())
 }
 
-/// Nanoseconds of each run.
+/// Nanoseconds that each of the runs took.
 fn times(
     pool: Option<&ThreadPool>,
     runs: usize,

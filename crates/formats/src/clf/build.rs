@@ -7,7 +7,7 @@ use onelight_lut::{
 };
 
 impl ClfProcess {
-    /// A structured LUT, whole.
+    /// A structured LUT with its matrices and curves, so that nothing is needed beside the file.
     ///
     /// # Errors
     ///

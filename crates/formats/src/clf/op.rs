@@ -97,7 +97,7 @@ enum Negatives {
 /// The parameters of one channel of an `Exponent`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Power {
-    /// The exponent, above 0.
+    /// `x^exponent`; the exponent is above 0.
     Basic(f64),
     /// A power with a straight foot.
     MonCurve(PowerCoding),
@@ -140,7 +140,7 @@ impl Range {
         Self { low: Some([low; 2]), high: Some([high; 2]), beyond: Beyond::Clamp }
     }
 
-    /// Only a lower end.
+    /// A range with a lower end alone: what is above goes through.
     pub(super) fn floor(low: f64) -> Self {
         Self { low: Some([low; 2]), high: None, beyond: Beyond::Clamp }
     }

@@ -22,7 +22,7 @@ impl ClfProcess {
         Self::parse(&read_text(input, Self::MAX_BYTES)?)
     }
 
-    /// [`ClfProcess::read`] from text.
+    /// The same as [`ClfProcess::read`], from text that is in memory.
     ///
     /// # Errors
     ///

@@ -25,7 +25,7 @@ impl ClfProcess {
     ///
     /// # Errors
     ///
-    /// If the writer fails.
+    /// If the writer fails; what it took until then is an incomplete file.
     pub fn write(&self, writer: impl Write) -> Result<(), Error> {
         let mut out = BufWriter::with_capacity(1 << 16, writer);
         let id = if self.name.is_empty() { NAMELESS } else { &self.name };

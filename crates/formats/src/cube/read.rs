@@ -12,7 +12,7 @@ use lines::Lines;
 use numbers::numbers;
 
 impl CubeFile {
-    /// [`CubeFile::read`] from text.
+    /// The same as [`CubeFile::read`], from text that is in memory.
     ///
     /// # Errors
     ///

@@ -19,7 +19,7 @@ impl CubeFile {
     ///
     /// # Errors
     ///
-    /// If the writer fails.
+    /// If the writer fails; what it took until then is an incomplete file.
     pub fn write(&self, writer: impl Write) -> Result<(), Error> {
         let mut out = Blocks { writer, block: Vec::with_capacity(BLOCK + 1024) };
         self.write_text(&mut out.block)?;

@@ -13,7 +13,7 @@ use crate::picture::{Verb, develop, floats, largest, source};
 ///
 /// The steps that differ are `log2` and `exp2`. WGSL asks of `log2` 3 units in the last place, or 2^-21 near 1: at 10 stops
 /// from 1 an error of 2^-21 stops either way. Film steepens that by its gamma, on a print the product of two, 3 at most; coded
-/// for a display it is worth gamma * ln 2 / 2.4 times the value: 4e-7. `exp2` may be off by (3 + 2 |x|) units: at the 10 halvings
+/// for a display it comes to gamma * ln 2 / 2.4 times the value: 4e-7. `exp2` may be off by (3 + 2 |x|) units: at the 10 halvings
 /// of the densest dye, 1.4e-6 of a term. Sums with terms of either sign multiply that by the ratio of their absolute to
 /// their real size, below 4 for the fitted forms. Those are below 1e-5 together.
 const PARITY: f32 = 1e-5;

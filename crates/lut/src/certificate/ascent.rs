@@ -21,13 +21,13 @@ const KEPT_OF: usize = 4;
 /// Most climbs end on the same few hills, and only the highest matters.
 pub(super) fn largest(
     law: &SamplingLaw,
-    places: &[[f64; 3]],
+    colours: &[[f64; 3]],
     differences: &[f64],
     measure: impl Fn([f64; 3]) -> f64 + Sync,
     count_more: &(impl Fn(usize) + Sync),
 ) -> Result<(f64, [f64; 3]), Error> {
     let worst = worst(differences, law.ascents.max(1));
-    let mut climbs: Vec<Climb> = worst.into_iter().map(|i| Climb::new(i, places[i], differences[i])).collect();
+    let mut climbs: Vec<Climb> = worst.into_iter().map(|i| Climb::new(i, colours[i], differences[i])).collect();
     let budget = law.ascents.min(climbs.len()) * law.ascent_steps;
     for round in 0..ROUNDS {
         if round > 0 {

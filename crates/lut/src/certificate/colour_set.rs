@@ -88,7 +88,7 @@ pub(super) fn measure(
             let range = from..from + set.colours.len() * EXPOSURES;
             from = range.end;
             let differences = &differences[range.clone()];
-            let (found, worst) = Deviation::with_worst_index(&named.places[range], differences.to_vec())?;
+            let (found, worst) = Deviation::with_worst_index(&named.colours[range], differences.to_vec())?;
             Ok(SetDeviation {
                 name: set.name.clone(),
                 count: found.count,

@@ -51,9 +51,9 @@ pub(super) fn stencil(centre: [f64; 3]) -> [[f64; 3]; STENCIL] {
 
 pub(super) fn count(stencils: &Compared<'_>) -> Folds {
     let mut found = Folds { places: 0, clipped: 0, flat: 0, folds: 0, first: None };
-    let places = stencils.places.chunks_exact(STENCIL);
+    let centres = stencils.colours.chunks_exact(STENCIL);
     let reference = stencils.reference.chunks_exact(STENCIL);
-    for ((colours, reference), candidate) in places.zip(reference).zip(stencils.candidate.chunks_exact(STENCIL)) {
+    for ((colours, reference), candidate) in centres.zip(reference).zip(stencils.candidate.chunks_exact(STENCIL)) {
         found.places += 1;
         let want = Contrast::of(reference);
         if reference.iter().flatten().any(|v| !(MARGIN..=1.0 - MARGIN).contains(v)) {

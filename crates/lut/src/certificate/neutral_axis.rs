@@ -52,7 +52,7 @@ pub(super) fn measure(
     luminance: &impl Fn(&[f64; 3]) -> f64,
 ) -> Result<NeutralAxis, Error> {
     let differences = greys.differences(difference);
-    let (found, worst) = Deviation::with_worst_index(greys.places, differences)?;
+    let (found, worst) = Deviation::with_worst_index(greys.colours, differences)?;
     Ok(NeutralAxis {
         count: found.count,
         step: law.neutral_step,

@@ -70,7 +70,7 @@ pub struct DirectPrint {
 }
 
 impl DirectForm {
-    /// Puts the parts together.
+    /// A form of these parts, checked so that applying it cannot fail.
     ///
     /// # Errors
     /// If a matrix holds a number that is not finite.
@@ -93,7 +93,7 @@ impl DirectForm {
         self.apply_in(linear)
     }
 
-    /// [`DirectForm::apply`] in either type.
+    /// The one definition of [`DirectForm::apply`], for float32 and float64.
     #[inline]
     pub(crate) fn apply_in<N: Number>(&self, linear: [N; 3]) -> [N; 3] {
         let DirectParts { input, exposure, curves, print, projection, coding } = &self.parts;

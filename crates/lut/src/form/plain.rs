@@ -55,7 +55,7 @@ impl PlainLut {
         self.table.apply(coordinates, self.interpolation)
     }
 
-    /// [`PlainLut::apply`] in float64.
+    /// [`PlainLut::apply`] in float64, from the same stored numbers.
     pub(crate) fn apply_f64(&self, linear: [f64; 3]) -> [f64; 3] {
         self.table.apply_f64(linear.map(|u| self.shaper.encode(u)), self.interpolation)
     }

@@ -92,7 +92,7 @@ pub enum Decode {
 }
 
 impl StructuredLut {
-    /// Puts the parts together.
+    /// A table of these parts, checked so that applying it cannot fail.
     ///
     /// # Errors
     /// If a matrix holds a number that is not finite.
@@ -140,7 +140,7 @@ impl StructuredLut {
         self.decode(self.parts.table.apply(self.coordinates(linear), self.parts.interpolation))
     }
 
-    /// [`StructuredLut::apply`] in float64.
+    /// [`StructuredLut::apply`] in float64, from the same stored numbers.
     pub(crate) fn apply_f64(&self, linear: [f64; 3]) -> [f64; 3] {
         self.decode_in(self.parts.table.apply_f64(self.coordinates_in(linear), self.parts.interpolation))
     }

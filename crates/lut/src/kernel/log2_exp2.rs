@@ -2,7 +2,7 @@ use fearless_simd::prelude::*;
 
 use crate::log2_exp2::{EXP2, EXP2_ENDS, LOG2, MANTISSA, ONE, ROUNDER};
 
-/// [`log2`](crate::log2_exp2::log2) of each lane.
+/// The same as [`log2`](crate::log2_exp2::log2) for each lane of a vector.
 #[inline(always)]
 pub(super) fn log2s<S: Simd>(simd: S, x: S::f32s) -> S::f32s {
     let bits: S::i32s = x.bitcast();

@@ -42,10 +42,10 @@ pub trait PixelMap: sealed::Sealed + Sync {
         self.map_on(SimdLevel::best(), from, to)
     }
 
-    /// [`PixelMap::map`] by certain instructions.
+    /// The same as [`PixelMap::map`], by the instructions of one level.
     ///
     /// # Errors
-    /// As there.
+    /// The same as those of [`PixelMap::map`].
     fn map_on<S: Sample, T: Sample>(
         &self,
         level: SimdLevel,

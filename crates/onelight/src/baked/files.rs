@@ -172,7 +172,7 @@ impl Baked {
     /// What the files of a format make of scene-linear RGB, their numbers read back.
     ///
     /// # Errors
-    /// As [`Baked::files`].
+    /// The same as those of [`Baked::files`].
     pub fn as_written(&self, format: FileFormat) -> Result<AsWritten<'_>, Error> {
         let files = self.files(format, &[])?;
         let bytes = files.first().map_or(&[][..], |file| &file.bytes);

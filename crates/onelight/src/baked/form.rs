@@ -61,7 +61,7 @@ const BLOCK: usize = 4096;
 const FIT_SAMPLES_PER_NODE: usize = 4;
 
 impl Look {
-    /// Bakes the look.
+    /// Bakes the look by a recipe: fits the range of a plain table, the entries or the exponentials, and stores them.
     ///
     /// ```
     /// use onelight::baked::Recipe;
@@ -97,7 +97,7 @@ impl Look {
     /// Bakes the look with the range of a plain table fitted to somebody's own colours, scene-linear RGB of the input space.
     ///
     /// # Errors
-    /// As [`Look::baked`].
+    /// The same as those of [`Look::baked`].
     pub fn baked_for_scene(&self, recipe: &Recipe, colours: &[[f64; 3]]) -> Result<Baked, Error> {
         Baked::new(self, recipe, Some(colours))
     }

@@ -173,7 +173,7 @@ impl ProcessKeys {
     /// What `calibration` is for a word: `exact`, or a number of iterations.
     ///
     /// # Errors
-    /// If it is neither.
+    /// If the word is neither `exact` nor a number of iterations.
     pub fn parse_calibration(word: &str) -> Result<Calibration, Error> {
         parse_calibration(word)
     }

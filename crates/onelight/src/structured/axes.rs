@@ -73,7 +73,7 @@ impl Axes {
     }
 
     /// What lies at a coordinate of each axis: dye in the camera film, or log exposure of the print.
-    pub(super) fn places(&self, coordinates: [f64; 3]) -> [f64; 3] {
+    pub(super) fn positions(&self, coordinates: [f64; 3]) -> [f64; 3] {
         match &self.last {
             Last::Camera { amounts } => {
                 amounts.zip_map(coordinates.into(), |(least, most), t| least + t * (most - least)).to_array()
@@ -82,11 +82,11 @@ impl Axes {
         }
     }
 
-    /// Dye in the camera film at a node, given by its places. Nodes that no light reaches may hold less than no dye.
-    pub(super) fn amounts(&self, places: [f64; 3]) -> PerLayer<DyeAmount> {
+    /// Dye in the camera film at a node, given by its positions. Nodes that no light reaches may hold less than no dye.
+    pub(super) fn amounts(&self, positions: [f64; 3]) -> PerLayer<DyeAmount> {
         let amounts = match &self.last {
-            Last::Camera { .. } => places,
-            Last::Print { offset, inverse, .. } => (inverse * (Vector3::from(places) - offset)).into(),
+            Last::Camera { .. } => positions,
+            Last::Print { offset, inverse, .. } => (inverse * (Vector3::from(positions) - offset)).into(),
         };
         PerLayer::from(amounts).map(DyeAmount)
     }

@@ -146,10 +146,10 @@ impl Encode<'_> {
     fn sampled(&self, axes: &Axes, size: usize) -> Result<Lut3d, Error> {
         // Checks the size before anything is allocated.
         let nodes = Lut3d::identity(size)?;
-        let places: Vec<[f64; 3]> =
-            (0..size).map(|i| [i as f64 / (size - 1) as f64; 3]).map(|t| axes.places(t)).collect();
+        let positions: Vec<[f64; 3]> =
+            (0..size).map(|i| [i as f64 / (size - 1) as f64; 3]).map(|t| axes.positions(t)).collect();
         let entry = |i: usize| {
-            let node = [places[i % size][0], places[i / size % size][1], places[i / size / size][2]];
+            let node = [positions[i % size][0], positions[i / size % size][1], positions[i / size / size][2]];
             self.entry(axes.amounts(node))
         };
         Ok(Lut3d::new(size, (0..nodes.entries().len()).into_par_iter().map(entry).collect())?)

@@ -107,7 +107,7 @@ impl Oracle {
         }
     }
 
-    /// The whole way of a colour: scene-linear to display-linear. `Err` holds printer lights that cannot be.
+    /// A colour through all stages: scene-linear to display-linear. `Err` holds printer lights that cannot be.
     pub(crate) fn compile(&self) -> Result<impl Fn([f64; 3]) -> [f64; 3] + '_, Vector3<f64>> {
         let own = self.film.mid_grey().map_or(0.0, |h| h.0);
         let normal = match (&self.print, self.grey) {

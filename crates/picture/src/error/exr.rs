@@ -52,7 +52,7 @@ pub(crate) enum BlockProblem {
 /// What is wrong with a block that is unpacked.
 #[derive(Debug)]
 pub(crate) enum PixelProblem {
-    /// What the decoder says.
+    /// What the decoder says of it, cut and on one line.
     Decoder(String),
     DwaTooShort {
         bytes: usize,

@@ -45,7 +45,7 @@ pub enum Reconstruction {
 }
 
 impl Reconstruction {
-    /// The four ways, the standard first.
+    /// All four methods, the default first.
     pub const ALL: [Self; 4] = [Self::Smooth, Self::PseudoInverse, Self::BoxesBalanced, Self::BoxesRaw];
 }
 
@@ -89,7 +89,7 @@ impl Basis {
     /// The reflectance that stands for one primary: 0 red, 1 green, 2 blue; 401 values, 380..780 nm.
     ///
     /// # Panics
-    /// If `primary > 2`.
+    /// If `primary` is above 2: there are three, 0 to 2.
     #[must_use]
     pub fn reflectance(&self, primary: usize) -> &[f64] {
         &self.reflectance[primary]

@@ -4,9 +4,9 @@ use anyhow::Result;
 use onelight::Look;
 use onelight_benches::buffers::{CASES, Case, largest_step};
 
+use super::contact_sheet::{Tile, coded};
 use super::develop::{Distance, differences};
 use super::frame::WIDTH;
-use super::paper::{Tile, coded};
 
 /// Rows of a ramp, and its ends in stops about mid grey.
 const HEIGHT: usize = 60;

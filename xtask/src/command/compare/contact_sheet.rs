@@ -1,4 +1,4 @@
-//! Sheets as PNG: tiles with captions, and difference pictures.
+//! Contact sheets as PNG: tiles with captions, and difference pictures.
 
 use std::io::Cursor;
 
@@ -24,7 +24,7 @@ pub(super) struct Tile {
     pub(super) captions: [String; 2],
     pub(super) width: u32,
     pub(super) height: u32,
-    /// Display-coded.
+    /// Display-coded sRGB, or the sentence that stands in the picture's place.
     pub(super) picture: Result<Vec<[f32; 3]>, String>,
 }
 

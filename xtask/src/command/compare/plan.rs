@@ -88,7 +88,7 @@ pub(super) fn sheets() -> Result<Vec<Sheet>, Error> {
 }
 
 fn exposures(films: &[Named]) -> Sheet {
-    /// Two stops apart.
+    /// Exposures of a row of pictures, in stops about the normal one.
     const EXPOSURES: [i32; 5] = [-4, -2, 0, 2, 4];
     let text = "Tone mapping above, films below, two stops apart. Films are steeper in the middle, darker in the shadows, and let \
                 bright colours fade to white where tone mapping keeps or clips them; greys are tinted. Each is compared with \
@@ -185,7 +185,7 @@ fn infrared(negative: &ProcessKeys) -> Sheet {
 }
 
 fn matrices(films: &[(&str, &ProcessKeys)]) -> Sheet {
-    let text = "Ways from RGB to a spectrum. Three raw boxes are the talk's \"color balance not adjusted properly\": saturated colours \
+    let text = "Four methods that make a spectrum of RGB. Three raw boxes are the talk's \"color balance not adjusted properly\": saturated colours \
                 move most, greys not at all.";
     let mut sheet = Sheet::new("matrices", "Spectra for RGB", text, 4);
     for (name, process) in films {

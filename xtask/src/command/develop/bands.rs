@@ -58,7 +58,7 @@ pub(super) fn pass(
 /// Shows every band of a picture to `look`, while the next one is read.
 ///
 /// # Errors
-/// What reading says.
+/// What reading a band reports, in one sentence.
 pub(super) fn look_through(picture: &mut PictureReader<'_>, mut look: impl FnMut(&mut Band) + Send) -> Result<()> {
     let [mut coming, mut here] = <[Band; 2]>::default();
     picture.next_into(&mut here)?;

@@ -25,7 +25,7 @@ pub(crate) enum Form {
 
 /// A film, ready for any number of pictures on any number of threads.
 pub(crate) enum Film {
-    /// The exact film, float64.
+    /// The exact film in float64: the slowest, and what the others are measured against.
     Exact(Box<Look>),
     /// What was baked of it.
     Baked(Box<Baked>),

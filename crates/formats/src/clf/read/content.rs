@@ -62,9 +62,9 @@ pub(super) fn content(markup: &mut Markup<'_>, start: &Element, child: Element) 
 enum ArrayShape {
     Matrix,
     MatrixWithOffset,
-    /// Entries and columns.
+    /// A 1D table: its entries, and its columns (1 or 3).
     Lut1d(usize, usize),
-    /// Nodes a side.
+    /// A 3D table: its nodes along each side.
     Lut3d(usize),
 }
 

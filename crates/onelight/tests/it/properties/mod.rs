@@ -8,7 +8,7 @@ mod settings;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-/// The same inputs in every run; PROPTEST_CASES digs deeper, in new places each time.
+/// The same inputs in every run; PROPTEST_CASES digs deeper, with new inputs each time.
 fn cases(count: u32) -> ProptestConfig {
     let mut config = ProptestConfig { failure_persistence: None, ..ProptestConfig::default() };
     if std::env::var_os("PROPTEST_CASES").is_none() {

@@ -72,7 +72,7 @@ impl Recipe {
     }
 }
 
-/// Whether `output` is whole and was developed by this digest.
+/// Whether `output` is complete and was developed by this digest.
 pub(super) fn is_done(output: &Path, digest: &str) -> bool {
     text_of_complete_picture(output, DIGEST_KEY).is_some_and(|found| found == digest)
 }

@@ -33,7 +33,7 @@ use crate::{Report, atomic_file};
 /// Refuses to expose each frame of a shot by itself.
 ///
 /// # Errors
-/// One sentence.
+/// One sentence that names `--ev` and the way out, if the frames of a numbered shot would each get an exposure of their own.
 pub(super) fn check_exposure(plan: &Plan, exposure: Exposure) -> Result<()> {
     match plan.frames.first() {
         Some(frame) if plan.numbered && exposure == Exposure::Auto => bail!(

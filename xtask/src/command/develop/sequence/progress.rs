@@ -34,7 +34,7 @@ impl JobProgress {
         counter.fetch_add(1, Ordering::Relaxed);
     }
 
-    fn finished(&self) -> usize {
+    fn done(&self) -> usize {
         [&self.developed, &self.already_done, &self.failed].map(|counter| counter.load(Ordering::Relaxed)).iter().sum()
     }
 
@@ -47,12 +47,12 @@ impl JobProgress {
 /// `37 of 100 frames, 4.1 frames/s, 16 s left, 1 failed`
 impl fmt::Display for JobProgress {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (finished, developed) = (self.finished(), self.developed.load(Ordering::Relaxed));
-        write!(f, "{finished} of {} frames", self.total)?;
+        let (done, developed) = (self.done(), self.developed.load(Ordering::Relaxed));
+        write!(f, "{done} of {} frames", self.total)?;
         if developed > 0 {
             let each = self.start.elapsed() / u32::try_from(developed).unwrap_or(u32::MAX);
             write!(f, ", {}", rate(each))?;
-            let left = u32::try_from(self.total - finished).unwrap_or(u32::MAX);
+            let left = u32::try_from(self.total - done).unwrap_or(u32::MAX);
             if left > 0 {
                 write!(f, ", {} left", duration(each.saturating_mul(left)))?;
             }
@@ -103,7 +103,7 @@ impl Display {
             self.line(&format!("failed: {why}"));
         }
         self.bar.set_message(progress.to_string());
-        self.bar.set_position(progress.finished() as u64);
+        self.bar.set_position(progress.done() as u64);
         if self.bar.is_hidden() && self.last_line.elapsed() >= LINE_EVERY {
             self.line(&progress.to_string());
             self.last_line = Instant::now();
@@ -115,7 +115,7 @@ impl Display {
     }
 
     fn line(&self, text: &str) {
-        // Where this cannot be written, the frames are still worth developing.
+        // Where this cannot be written, the frames are developed all the same.
         self.bar.suspend(|| {
             let _ = writeln!(io::stderr(), "{text}");
         });

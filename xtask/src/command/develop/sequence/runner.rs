@@ -21,7 +21,7 @@ use super::progress::JobProgress;
 use crate::picture_file::open;
 
 /// Develops `frames`, as many at once as `budget` and `at_once` allow; what became of each, in their order. `done` hears
-/// of each as it is finished.
+/// of each as soon as it is known.
 pub(super) fn develop_frames(
     settings: &Settings,
     recipe: &Recipe,
@@ -33,7 +33,7 @@ pub(super) fn develop_frames(
 ) -> Vec<Outcome> {
     let next = AtomicUsize::new(0);
     let mut outcomes: Vec<Option<Outcome>> = frames.iter().map(|_| None).collect();
-    let (results, finished) = mpsc::channel();
+    let (results, received) = mpsc::channel();
     thread::scope(|scope| {
         for _ in 0..at_once {
             // Threads of their own, as those of the pool would take up whole frames while they wait for parts of one.
@@ -47,7 +47,7 @@ pub(super) fn develop_frames(
             });
         }
         drop(results);
-        for (index, outcome) in finished {
+        for (index, outcome) in received {
             done(&outcome);
             if let Some(place) = outcomes.get_mut(index) {
                 *place = Some(outcome);
