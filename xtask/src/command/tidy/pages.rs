@@ -5,8 +5,6 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 
-use super::read;
-
 /// Where pages are, beside the folders of the packages.
 const FOLDERS: [&str; 2] = ["", "docs"];
 /// What a run writes is named before it is there.
@@ -17,8 +15,9 @@ pub(super) fn pages(top: &Path, members: &[String]) -> Result<Vec<String>> {
     let mut faults = Vec::new();
     for folder in FOLDERS.into_iter().chain(members.iter().map(String::as_str)) {
         for page in in_folder(&top.join(folder))? {
+            let text = fs::read_to_string(&page).with_context(|| format!("{}: cannot be read", page.display()))?;
             let shown = page.strip_prefix(top).unwrap_or(&page).display().to_string();
-            faults.extend(page_faults(top, &shown, &read(&page)?));
+            faults.extend(page_faults(top, &shown, &text));
         }
     }
     Ok(faults)
