@@ -128,7 +128,7 @@ impl From<Kind> for Error {
     }
 }
 
-/// An error of reading; writers have [`WriteProblem::Io`].
+/// An error of reading; one of writing is another kind, `WriteProblem::Io`.
 impl From<io::Error> for Error {
     fn from(error: io::Error) -> Self {
         match error.kind() {
