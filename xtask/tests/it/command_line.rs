@@ -229,11 +229,6 @@ fn commands_that_only_look_work() {
 }
 
 #[test]
-fn the_workspace_is_tidy() {
-    done(Path::new(env!("CARGO_MANIFEST_DIR")), &["tidy"]);
-}
-
-#[test]
 fn hard_inputs_break_no_limit() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();

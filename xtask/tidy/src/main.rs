@@ -1,4 +1,4 @@
-//! `tidy`: whether the workspace keeps the rules of ARCHITECTURE.md.
+//! Whether the workspace keeps the rules of ARCHITECTURE.md.
 
 mod circles;
 mod layers;
@@ -8,28 +8,40 @@ mod source;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use clap::Args;
 use serde_json::json;
 
 use self::layers::Layer;
 use self::sizes::Lines;
 use self::source::Module;
-use crate::{Report, folders};
-
-#[derive(Debug, Args)]
-pub(crate) struct Arguments {
-    /// Print the result as one JSON object
-    #[arg(long)]
-    json: bool,
-}
 
 /// Folders of a package that hold Rust files.
 const SOURCES: [&str; 4] = ["src", "tests", "benches", "examples"];
 
-pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
-    let found = check(&folders::workspace()?)?;
+/// Prints what was looked at; 2 and a list of the faults where there are any. `--json` prints one JSON object.
+fn main() -> ExitCode {
+    let as_json = std::env::args().any(|argument| argument == "--json");
+    match run(as_json) {
+        Ok(text) => {
+            println!("{}", text.trim_end());
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// The top of the workspace, two folders above this package.
+fn workspace() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn run(as_json: bool) -> Result<String> {
+    let found = check(&workspace())?;
     if !found.faults.is_empty() {
         bail!("{} faults\n{}", found.faults.len(), found.faults.join("\n"));
     }
@@ -43,7 +55,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let sizes: serde_json::Map<String, serde_json::Value> =
         packages.iter().map(|package| (package.folder.clone(), package.all.into())).collect();
     let json = json!({ "files": files, "crates": packages.len(), "lines": sizes });
-    Ok(Report { text, json, as_json: arguments.json })
+    Ok(if as_json { format!("{json:#}") } else { text })
 }
 
 /// What was looked at, and what is wrong with it.
@@ -151,8 +163,14 @@ fn rust_files(folder: &Path) -> Result<Vec<PathBuf>> {
 mod tests {
     use super::*;
 
+    #[test]
+    fn this_workspace_is_tidy() {
+        let faults = check(&workspace()).unwrap().faults;
+        assert!(faults.is_empty(), "{faults:#?}");
+    }
+
     /// A workspace of two packages; `film` says what the second one is made of.
-    fn workspace(film: &[(&str, &str)]) -> tempfile::TempDir {
+    fn made_up(film: &[(&str, &str)]) -> tempfile::TempDir {
         let top = tempfile::tempdir().unwrap();
         let fixed = [
             ("Cargo.toml", "[workspace]\nmembers = [\"crates/spectra\", \"crates/film\"]"),
@@ -177,7 +195,7 @@ mod tests {
             ("crates/film/src/helpers.rs", ""),
             ("crates/film/src/bin/one.rs", "fn main() {}"),
         ];
-        let faults = check(workspace(&film).path()).unwrap().faults;
+        let faults = check(made_up(&film).path()).unwrap().faults;
         let expected = [
             "crates/film/Cargo.toml: depends on onelight-printing, expected only onelight-spectra",
             "crates/film/src/dye.rs:3: the word \"printer\", which crates/film does not know",
@@ -196,7 +214,7 @@ mod tests {
 
     #[test]
     fn a_member_without_a_layer_is_a_fault() {
-        let top = workspace(&[("crates/film/Cargo.toml", ""), ("crates/film/src/lib.rs", "")]);
+        let top = made_up(&[("crates/film/Cargo.toml", ""), ("crates/film/src/lib.rs", "")]);
         fs::write(top.path().join("Cargo.toml"), "[workspace]\nmembers = [\"crates/other\"]").unwrap();
         let faults = check(top.path()).unwrap().faults;
         assert_eq!(faults, ["crates/other: has no layer, expected one of those in ARCHITECTURE.md"]);
