@@ -1,7 +1,7 @@
 //! What low-precision frame buffers between scene and film cost: the largest visible step on a grey ramp.
 
 use onelight::Look;
-use onelight::spectra::BufferFormat;
+use onelight::spectra::{BufferFormat, MID_GREY};
 
 use crate::error::Result;
 
@@ -45,7 +45,7 @@ pub fn largest_step(case: &Case, film: &Look) -> Result<f64> {
     let (mut largest, mut last) = (0f64, None::<([f64; 3], [f64; 3])>);
     for i in 0..=RAMP_STEPS {
         let stops = RAMP_STOPS.0 + (RAMP_STOPS.1 - RAMP_STOPS.0) * f64::from(i) / f64::from(RAMP_STEPS);
-        let stored = case.stored([0.18 * stops.exp2(); 3]);
+        let stored = case.stored([MID_GREY * stops.exp2(); 3]);
         if last.is_some_and(|(value, _)| value == stored) {
             continue;
         }

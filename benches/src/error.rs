@@ -76,17 +76,3 @@ impl From<onelight_gpu::Error> for Error {
         Self::new(error.to_string())
     }
 }
-
-#[cfg(feature = "gpu")]
-impl From<onelight_gpu::wgpu::PollError> for Error {
-    fn from(error: onelight_gpu::wgpu::PollError) -> Self {
-        Self::of("the graphics card", error)
-    }
-}
-
-#[cfg(feature = "gpu")]
-impl From<onelight_gpu::wgpu::RequestDeviceError> for Error {
-    fn from(error: onelight_gpu::wgpu::RequestDeviceError) -> Self {
-        Self::of("the graphics card", error)
-    }
-}

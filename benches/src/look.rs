@@ -1,3 +1,4 @@
+use onelight::spectra::MID_GREY;
 use onelight::{DirectSettings, Error, Process, Reference, StructuredSettings};
 use onelight_lut::{DirectForm, Interpolation, PlainLut, Shaper, StructuredLut, bake};
 
@@ -12,7 +13,7 @@ pub const PROCESSES: [(&str, &str); 2] = [("negative", NEGATIVE), ("reversal", R
 pub const PLAIN_SIZE: usize = 33;
 
 /// Where the plain table's shaper turns from linear to logarithmic, and where it ends: six stops over mid grey.
-pub const SHAPER: [f64; 2] = [0.02, 0.18 * 64.0];
+pub const SHAPER: [f64; 2] = [0.02, MID_GREY * 64.0];
 
 /// The exact film of a camera film's usual process: negatives on Kodak 2383, reversal film as it is.
 ///

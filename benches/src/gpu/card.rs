@@ -1,11 +1,9 @@
 //! The adapter, and the clock on it.
 
-use onelight_gpu::wgpu;
-use pollster::block_on;
+use onelight_gpu::{Headless, HeadlessSettings, wgpu};
 use wgpu::{
-    Adapter, Buffer, BufferDescriptor, BufferUsages, CommandEncoder, Device, DeviceDescriptor, DeviceType, Features,
-    Instance, InstanceDescriptor, Limits, MapMode, PollType, PowerPreference, QuerySet, QuerySetDescriptor, QueryType,
-    Queue, RequestAdapterOptions,
+    Buffer, BufferDescriptor, BufferUsages, CommandEncoder, Device, DeviceType, Features, QuerySet, QuerySetDescriptor,
+    QueryType, Queue,
 };
 
 use crate::error::{Error, Result};
@@ -16,8 +14,7 @@ const COPIES: u32 = 8;
 
 /// A card that is measured.
 pub(super) struct Card {
-    pub(super) device: Device,
-    pub(super) queue: Queue,
+    pub(super) gpu: Headless,
     pub(super) name: String,
     pub(super) driver: String,
     pub(super) is_software: bool,
@@ -35,12 +32,11 @@ struct Clock {
 impl Card {
     /// Opens the fastest adapter; software only where that is allowed.
     pub(super) fn open(allow_software: bool) -> Result<Self> {
-        let instance = Instance::new(InstanceDescriptor::new_without_display_handle());
-        let options =
-            RequestAdapterOptions { power_preference: PowerPreference::HighPerformance, ..Default::default() };
-        let adapter = block_on(instance.request_adapter(&options));
-        let adapter = adapter.map_err(|error| Error::of("no graphics card was found", error))?;
-        let info = adapter.get_info();
+        let gpu = Headless::open(&HeadlessSettings {
+            required_features: Features::TIMESTAMP_QUERY | Features::TIMESTAMP_QUERY_INSIDE_ENCODERS,
+            ..Default::default()
+        })?;
+        let info = gpu.adapter.get_info();
         let is_software = info.device_type == DeviceType::Cpu;
         if is_software && !allow_software {
             return Err(Error::new(format!(
@@ -48,35 +44,24 @@ impl Card {
                 info.name
             )));
         }
-        let (device, queue) = block_on(adapter.request_device(&descriptor(&adapter)?))?;
-        let clock = Clock::new(&device, &queue);
+        let clock = Clock::new(&gpu.device, &gpu.queue);
         let driver = format!("{} {}", info.driver, info.driver_info).trim().to_owned();
-        Ok(Self { device, queue, name: info.name, driver, is_software, clock })
+        Ok(Self { gpu, name: info.name, driver, is_software, clock })
     }
 
     /// Milliseconds on the card that it takes what is encoded.
     pub(super) fn time(&self, encode: impl FnOnce(&mut CommandEncoder) -> Result<()>) -> Result<f64> {
         let Clock { points, resolved, read, ns_per_tick } = &self.clock;
-        let mut encoder = self.device.create_command_encoder(&Default::default());
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         encoder.write_timestamp(points, 0);
         encode(&mut encoder)?;
         encoder.write_timestamp(points, 1);
         encoder.resolve_query_set(points, 0..2, resolved, 0);
         encoder.copy_buffer_to_buffer(resolved, 0, read, 0, 16);
-        let ticks = self.read(encoder, read)?;
+        self.gpu.queue.submit([encoder.finish()]);
+        let ticks = self.gpu.read_buffer(read)?;
         let tick = |i: usize| ticks.get(8 * i..8 * i + 8).and_then(|b| b.try_into().ok()).map_or(0, u64::from_ne_bytes);
         Ok(tick(1).saturating_sub(tick(0)) as f64 * ns_per_tick / 1e6)
-    }
-
-    /// Submits, waits, and reads a buffer.
-    pub(super) fn read(&self, encoder: CommandEncoder, buffer: &Buffer) -> Result<Vec<u8>> {
-        self.queue.submit([encoder.finish()]);
-        buffer.slice(..).map_async(MapMode::Read, |_| ());
-        self.device.poll(PollType::wait_indefinitely())?;
-        let bytes = buffer.slice(..).get_mapped_range();
-        let bytes = bytes.map_err(|error| Error::of("what the card made cannot be read", error))?.to_vec();
-        buffer.unmap();
-        Ok(bytes)
     }
 
     /// Bytes read and written in a second by the card's own copy of buffers.
@@ -85,7 +70,7 @@ impl Card {
         let usage = BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         let buffer = || {
             let descriptor = BufferDescriptor { label: None, size: bytes, usage, mapped_at_creation: false };
-            self.device.create_buffer(&descriptor)
+            self.gpu.device.create_buffer(&descriptor)
         };
         let [from, to] = [buffer(), buffer()];
         let copy = |encoder: &mut CommandEncoder| {
@@ -100,20 +85,6 @@ impl Card {
         }
         Ok(2.0 * bytes as f64 * f64::from(COPIES) / (least * 1e-3))
     }
-}
-
-fn descriptor(adapter: &Adapter) -> Result<DeviceDescriptor<'static>> {
-    let clocks = Features::TIMESTAMP_QUERY | Features::TIMESTAMP_QUERY_INSIDE_ENCODERS;
-    if !adapter.features().contains(clocks) {
-        let name = adapter.get_info().name;
-        return Err(Error::new(format!("{name}: has no timestamps between passes, expected some to time with")));
-    }
-    let max_buffer_size = adapter.limits().max_buffer_size.min(COPIED_BYTES);
-    Ok(DeviceDescriptor {
-        required_features: clocks | (adapter.features() & Features::FLOAT32_FILTERABLE),
-        required_limits: Limits { max_buffer_size, ..Limits::default() },
-        ..Default::default()
-    })
 }
 
 impl Clock {

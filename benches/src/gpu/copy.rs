@@ -19,10 +19,10 @@ pub(super) enum Copy {
 impl Copy {
     pub(super) fn new(card: &Card, target: TextureFormat) -> Self {
         let compute = |text: &str| {
-            Self::Compute(card.device.create_compute_pipeline(&ComputePipelineDescriptor {
+            Self::Compute(card.gpu.device.create_compute_pipeline(&ComputePipelineDescriptor {
                 label: None,
                 layout: None,
-                module: &card.device.create_shader_module(shader(text)),
+                module: &card.gpu.device.create_shader_module(shader(text)),
                 entry_point: None,
                 compilation_options: Default::default(),
                 cache: None,
@@ -36,8 +36,8 @@ impl Copy {
     }
 
     fn draw(card: &Card, target: TextureFormat) -> Self {
-        let module = card.device.create_shader_module(shader(include_str!("copy_draw.wgsl")));
-        Self::Draw(card.device.create_render_pipeline(&RenderPipelineDescriptor {
+        let module = card.gpu.device.create_shader_module(shader(include_str!("copy_draw.wgsl")));
+        Self::Draw(card.gpu.device.create_render_pipeline(&RenderPipelineDescriptor {
             label: None,
             layout: None,
             vertex: VertexState {
@@ -67,7 +67,7 @@ impl Copy {
                 let layout = pipeline.get_bind_group_layout(0);
                 let entries = [entry(0, from), entry(1, to)];
                 let descriptor = BindGroupDescriptor { label: None, layout: &layout, entries: &entries };
-                let textures = card.device.create_bind_group(&descriptor);
+                let textures = card.gpu.device.create_bind_group(&descriptor);
                 let mut pass = encoder.begin_compute_pass(&Default::default());
                 pass.set_pipeline(pipeline);
                 pass.set_bind_group(0, &textures, &[]);
@@ -77,7 +77,7 @@ impl Copy {
                 let layout = pipeline.get_bind_group_layout(0);
                 let entries = [entry(0, from)];
                 let descriptor = BindGroupDescriptor { label: None, layout: &layout, entries: &entries };
-                let textures = card.device.create_bind_group(&descriptor);
+                let textures = card.gpu.device.create_bind_group(&descriptor);
                 let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
                     color_attachments: &[Some(RenderPassColorAttachment {
                         view: to,

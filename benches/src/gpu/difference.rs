@@ -2,12 +2,11 @@
 
 use onelight::Reference;
 use onelight::lut::SceneSampler;
-use onelight_gpu::{FilmPass, Form, LookSettings, wgpu};
+use onelight_gpu::wgpu::TextureFormat;
+use onelight_gpu::{FilmPass, Form, Headless, LookSettings};
 use rayon::prelude::*;
-use wgpu::{BufferDescriptor, BufferUsages, TexelCopyBufferInfo, TexelCopyBufferLayout, TextureFormat, TextureUsages};
 
 use super::card::Card;
-use super::pictures::texture;
 use crate::error::Result;
 
 /// Colours that are compared, as a picture.
@@ -26,8 +25,8 @@ pub(super) struct Difference {
 pub(super) fn difference(card: &Card, film: &Reference, form: Form<'_>, settings: &LookSettings) -> Result<Difference> {
     let colours: Vec<[f64; 3]> =
         SceneSampler::new(STOPS.0..=STOPS.1)?.take((SIZE[0] * SIZE[1]) as usize).map(|rgb| rgb.map(to_f32)).collect();
-    let pass = FilmPass::with_settings(&card.device, &card.queue, form, TextureFormat::Rgba32Float, settings)?;
-    let found = developed(card, &pass, &colours)?;
+    let pass = FilmPass::with_settings(&card.gpu.device, &card.gpu.queue, form, TextureFormat::Rgba32Float, settings)?;
+    let found = developed(&card.gpu, &pass, &colours)?;
     let between = film.difference()?;
     let linear = |coded: [f64; 3]| coded.map(|v| film.coding().decode(v));
     let differences: Vec<f64> = colours
@@ -44,30 +43,10 @@ fn to_f32(v: f64) -> f64 {
 }
 
 /// Colours through a pass that writes 32-bit floats.
-fn developed(card: &Card, pass: &FilmPass, colours: &[[f64; 3]]) -> Result<Vec<[f64; 3]>> {
-    let source =
-        texture(card, TextureFormat::Rgba32Float, SIZE, TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST);
-    let target = texture(card, TextureFormat::Rgba32Float, SIZE, pass.target_usage() | TextureUsages::COPY_SRC);
+fn developed(gpu: &Headless, pass: &FilmPass, colours: &[[f64; 3]]) -> Result<Vec<[f64; 3]>> {
     let bytes: Vec<u8> =
         colours.iter().flat_map(|&[r, g, b]| [r, g, b, 1.0]).flat_map(|v| (v as f32).to_ne_bytes()).collect();
-    // 256 pixels of 16 bytes: whole multiples of 256 bytes, as copies want them.
-    let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(16 * SIZE[0]), rows_per_image: Some(SIZE[1]) };
-    card.queue.write_texture(source.as_image_copy(), &bytes, layout, source.size());
-    let read = card.device.create_buffer(&BufferDescriptor {
-        label: None,
-        size: bytes.len() as u64,
-        usage: BufferUsages::COPY_DST | BufferUsages::MAP_READ,
-        mapped_at_creation: false,
-    });
-    let mut encoder = card.device.create_command_encoder(&Default::default());
-    let [from, to] = [&source, &target].map(|texture| texture.create_view(&Default::default()));
-    pass.encode(&mut encoder, &from, &to)?;
-    encoder.copy_texture_to_buffer(
-        target.as_image_copy(),
-        TexelCopyBufferInfo { buffer: &read, layout },
-        target.size(),
-    );
-    let bytes = card.read(encoder, &read)?;
+    let bytes = gpu.develop(pass, &gpu.upload(SIZE, TextureFormat::Rgba32Float, &bytes)?)?;
     let float = |bytes: &[u8]| f64::from(bytes.try_into().map_or(f32::NAN, f32::from_ne_bytes));
     Ok(bytes.chunks_exact(16).map(|p| [float(&p[0..4]), float(&p[4..8]), float(&p[8..12])]).collect())
 }

@@ -65,7 +65,7 @@ pub(super) fn times(
 ) -> Result<Vec<Timed>> {
     let mut passes = vec![(None, Pass::Copy(Copy::new(card, target)))];
     for (i, Subject { form, settings }) in subjects.iter().enumerate() {
-        let film = FilmPass::with_settings(&card.device, &card.queue, *form, target, settings)?;
+        let film = FilmPass::with_settings(&card.gpu.device, &card.gpu.queue, *form, target, settings)?;
         passes.push((Some(i), Pass::Film(Box::new(film))));
     }
     let usage = passes.iter().find_map(|(_, pass)| match pass {

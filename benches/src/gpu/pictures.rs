@@ -41,7 +41,7 @@ impl Sources {
                 bytes_per_row: Some((bytes.len() / size[1] as usize) as u32),
                 rows_per_image: Some(size[1]),
             };
-            card.queue.write_texture(texture.as_image_copy(), &bytes, layout, texture.size());
+            card.gpu.queue.write_texture(texture.as_image_copy(), &bytes, layout, texture.size());
             texture.create_view(&Default::default())
         });
         Self { format, size, views: views.collect() }
@@ -67,7 +67,7 @@ pub(super) fn scene() -> Result<Vec<[f32; 3]>> {
 }
 
 pub(super) fn texture(card: &Card, format: TextureFormat, size: [u32; 2], usage: TextureUsages) -> Texture {
-    card.device.create_texture(&TextureDescriptor {
+    card.gpu.device.create_texture(&TextureDescriptor {
         label: None,
         size: Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
         mip_level_count: 1,

@@ -102,7 +102,7 @@ impl Forms {
     }
 
     fn subjects(&self) -> [Subject<'_>; 5] {
-        let settings = |fetch| LookSettings { fetch, storage: Storage::F16 };
+        let settings = |fetch| LookSettings { fetch, storage: Storage::F16, ..Default::default() };
         let (texels, filtered) = (settings(Fetch::Texels), settings(Fetch::Filtered));
         [
             Subject { form: (&self.plain).into(), settings: filtered },
@@ -186,7 +186,7 @@ impl Summary {
         let _ = writeln!(text, "{name}, {driver}, {}: copies {:.0} GB/s", today(), self.bandwidth / 1e9);
         let _ = writeln!(text, "copy pass: {:.0} % of that", 100.0 * self.reached);
         for Facts { name, difference: Difference { mean, max }, .. } in &self.facts {
-            let _ = writeln!(text, "{:26} dE from the film: mean {mean:.3}, max {max:.3}", name);
+            let _ = writeln!(text, "{name:26} dE from the film: mean {mean:.3}, max {max:.3}");
         }
         let mut group = None;
         for row in &self.rows {

@@ -26,7 +26,7 @@ pub(crate) trait Number:
     /// From an index or a count below 2^24: exact.
     fn of_index(index: usize) -> Self;
 
-    /// The whole part of a number that is not negative.
+    /// The whole part of a number from 0 to 2^24.
     fn to_index(self) -> usize;
 
     /// The larger of the two; the other where one is NaN.
@@ -70,14 +70,15 @@ macro_rules! arithmetic {
             value as Self
         }
 
+        // By way of `u32`: from and to 64 bits without a sign a processor needs several instructions and a branch.
         #[inline]
         fn of_index(index: usize) -> Self {
-            index as Self
+            index as u32 as Self
         }
 
         #[inline]
         fn to_index(self) -> usize {
-            self as usize
+            self as u32 as usize
         }
 
         #[inline]

@@ -35,7 +35,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         None => folders::output("")?,
     };
     let processes = processes(arguments)?;
-    let card = Card::open();
+    let card = Card::open()?;
     let progress = bar("measuring", (processes.len() * STEPS) as u64);
     let mut rows = Vec::new();
     for process in &processes {

@@ -50,9 +50,9 @@ impl PlainLut {
 
     /// The baked coding of one scene-linear colour.
     #[inline]
-    pub fn apply(&self, linear: [f32; 3]) -> [f32; 3] {
-        let coordinates = linear.map(|u| self.shaper.encode_f32(u));
-        self.table.apply(coordinates, self.interpolation)
+    pub fn apply(&self, [red, green, blue]: [f32; 3]) -> [f32; 3] {
+        let coordinate = |u| self.shaper.encode_f32(u);
+        self.table.read(coordinate(red), coordinate(green), coordinate(blue), self.interpolation)
     }
 
     /// [`PlainLut::apply`] in float64, from the same stored numbers.
