@@ -72,13 +72,13 @@ def versions(python_path):
         "names = ['opencolorio', 'spectral-film-lut', 'numpy', 'numba'];"
         "print(json.dumps({'python': platform.python_version(), **{n: m.version(n) for n in names}}))"
     )
-    found = json.loads(told([python_path, "-c", script]))
-    rustc = told(["rustc", "--version"]).strip().removeprefix("rustc ")
-    packages = json.loads(told(["cargo", "metadata", "--no-deps", "--format-version", "1"]))["packages"]
+    found = json.loads(output_of([python_path, "-c", script]))
+    rustc = output_of(["rustc", "--version"]).strip().removeprefix("rustc ")
+    packages = json.loads(output_of(["cargo", "metadata", "--no-deps", "--format-version", "1"]))["packages"]
     ours = next(package["version"] for package in packages if package["name"] == "onelight")
     return {"onelight": ours, "rustc": rustc, **found}
 
 
-def told(command):
+def output_of(command):
     """What a program prints."""
     return subprocess.run(command, cwd=TOP, stdout=subprocess.PIPE, text=True, check=True).stdout

@@ -37,7 +37,7 @@ TARGETS = [
     Target("whole process to .cube, times spectral-film-lut", (FILE, FILM_LUT, False, "process"), 70, "faster"),
 ]
 PLAIN_JOBS = {"f32": PLAIN_F32, "u8": PLAIN_U8}
-# What the difference of two results may be: the same numbers, rounded on two ways.
+# What the difference of two results may be: the same numbers, rounded in two orders.
 TOLERANCE = {"f32": (2e-4, ""), "u8": (1, "codes")}
 BAKE_SIZE = 33
 # Longest that one comparison goes on, in seconds, but three turns at least.

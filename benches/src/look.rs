@@ -1,3 +1,4 @@
+use onelight::spectra::MID_GREY;
 use onelight::{DirectSettings, Error, Process, Reference, StructuredSettings};
 use onelight_lut::{DirectForm, Interpolation, PlainLut, Shaper, StructuredLut, bake};
 
@@ -12,9 +13,9 @@ pub const PROCESSES: [(&str, &str); 2] = [("negative", NEGATIVE), ("reversal", R
 pub const PLAIN_SIZE: usize = 33;
 
 /// Where the plain table's shaper turns from linear to logarithmic, and where it ends: six stops over mid grey.
-pub const SHAPER: [f64; 2] = [0.02, 0.18 * 64.0];
+pub const SHAPER: [f64; 2] = [0.02, MID_GREY * 64.0];
 
-/// The exact film.
+/// The exact film of a camera film's usual process: negatives on Kodak 2383, reversal film as it is.
 ///
 /// # Errors
 /// If the camera film is unknown.
@@ -43,11 +44,11 @@ pub fn plain(film: &Reference) -> Result<PlainLut, Error> {
 /// One look in its fast forms, each with its usual settings.
 #[derive(Clone, Debug)]
 pub struct Forms {
-    /// 33^3, tetrahedral.
+    /// A table of 33 nodes a side, tetrahedral, every node by the exact film.
     pub plain: PlainLut,
-    /// 32^3, fitted.
+    /// A table of 32 nodes a side, entries fitted to the film.
     pub structured: StructuredLut,
-    /// No table.
+    /// The usual exponentials, no table.
     pub direct: DirectForm,
 }
 

@@ -1,12 +1,15 @@
-use onelight_lut::Sample;
+use onelight_lut::{Sample, SplitMix64};
 use rayon::prelude::*;
+
+/// Mid grey, scene-linear.
+const MID_GREY: f32 = onelight::spectra::MID_GREY as f32;
 
 /// Width and height in pixels.
 pub type Size = [usize; 2];
 
-/// 1920 x 1080.
+/// Full HD, 1920 x 1080 pixels.
 pub const FULL_HD: Size = [1920, 1080];
-/// 3840 x 2160.
+/// Ultra HD, 3840 x 2160 pixels: 4K.
 pub const ULTRA_HD: Size = [3840, 2160];
 
 /// A picture such as a camera or a renderer gives: scene-linear RGBA, row after row, alpha 1. The same at every call.
@@ -47,8 +50,8 @@ fn colour(at: [f32; 2], grain: f32) -> [f32; 3] {
     let texture = (0.1 + roughness) * octaves(at, 2, 40.0, 4, 0.6);
     let stops = -1.0 + light + 4.0 * lightness + texture + grain;
     let warmth = 1.2 * warmth + 0.8 * octaves(at, 3, 1.0, 1, 1.0);
-    let shine = 0.18 * highlight(at);
-    [warmth, 0.6 * green, -warmth].map(|tint| 0.18 * (stops + tint).exp2() + shine)
+    let shine = MID_GREY * highlight(at);
+    [warmth, 0.6 * green, -warmth].map(|tint| MID_GREY * (stops + tint).exp2() + shine)
 }
 
 /// The nearest of points strewn over the picture owns this place: its lightness, warmth, greenness (-0.5 to 0.5, near 0 most of
@@ -107,10 +110,9 @@ fn smooth(at: [f32; 2], seed: u64) -> f32 {
 
 /// A number in [0, 1) for a place: the mixer of SplitMix64 \[Steele2014\].
 fn hash([i, k]: [i32; 2], seed: u64) -> f32 {
-    let mut z = (i as u32 as u64 | (k as u32 as u64) << 32).wrapping_add(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((z ^ (z >> 31)) >> 40) as f32 / (1_u32 << 24) as f32
+    let place = i as u32 as u64 | (k as u32 as u64) << 32;
+    let mixed = SplitMix64::mix(place.wrapping_add(seed.wrapping_mul(SplitMix64::STEP)));
+    (mixed >> 40) as f32 / (1_u32 << 24) as f32
 }
 
 #[cfg(test)]
@@ -121,7 +123,7 @@ mod tests {
 
     /// Stops about mid grey of the green channel.
     fn stops() -> Vec<f32> {
-        natural(SIZE).chunks_exact(4).map(|p| (p[1] / 0.18).log2()).collect()
+        natural(SIZE).chunks_exact(4).map(|p| (p[1] / MID_GREY).log2()).collect()
     }
 
     fn mean(values: impl ExactSizeIterator<Item = f32>) -> f32 {
@@ -132,7 +134,7 @@ mod tests {
     #[test]
     fn light_is_positive_and_bounded() {
         for pixel in natural(SIZE).chunks_exact(4) {
-            assert!(pixel[..3].iter().all(|&v| v > 0.0 && v < 0.18 * 1024.0), "{pixel:?}");
+            assert!(pixel[..3].iter().all(|&v| v > 0.0 && v < MID_GREY * 1024.0), "{pixel:?}");
             assert_eq!(pixel[3], 1.0);
         }
     }

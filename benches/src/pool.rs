@@ -3,17 +3,17 @@ use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 /// On how many threads something runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Threads {
-    /// One.
+    /// One thread, as where many pictures are developed beside each other.
     One,
     /// As many as the process may use.
     All,
 }
 
 impl Threads {
-    /// Both.
+    /// One thread, then all.
     pub const EACH: [Self; 2] = [Self::One, Self::All];
 
-    /// In words.
+    /// As benchmarks are named: `one thread`.
     pub fn name(self) -> &'static str {
         match self {
             Self::One => "one thread",

@@ -5,7 +5,7 @@
 
 /// `look.toml`, as far as the film at work.
 pub mod look;
-/// Text files of tables: `.cube`, CLF, `.spi3d`, and our KTX2 as others read it.
+/// Text files of tables and forms: `.cube`, CLF, `.spi3d`, the JSON of a direct form, and our KTX2 as others read it.
 pub mod lut;
 /// Pictures: OpenEXR, PNG, TIFF, whole.
 pub mod picture;
@@ -24,7 +24,7 @@ pub enum Met {
 /// More bytes than any sentence of ours needs.
 const SENTENCE_BYTES: usize = 1000;
 
-/// The law of refusals.
+/// Holds every refusal to the same rule: one plain line of at most [`SENTENCE_BYTES`].
 fn refused(error: &impl std::fmt::Display) -> Met {
     let sentence = error.to_string();
     assert!(!sentence.is_empty(), "a refusal without a word");

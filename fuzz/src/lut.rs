@@ -1,10 +1,8 @@
 use std::fmt::Debug;
 
 use half::f16;
-use onelight::lut::{
-    ClfProcess, CubeFile, Interpolation, Lut3d, PngDepth, StripGreen, read_hald, read_spi3d, read_strip, write_hald,
-    write_ktx2, write_spi3d, write_strip,
-};
+use onelight::lut::{Interpolation, Lut3d};
+use onelight_formats::{ClfProcess, CubeFile, PngDepth, StripGreen, direct_json, hald, spi3d, strip};
 
 use super::{Met, hard_colours, refused};
 
@@ -44,10 +42,29 @@ pub fn clf(bytes: &[u8]) -> Met {
 
 /// An `.spi3d` gives finite colours for all colours, and is the same when written and read again.
 pub fn spi3d(bytes: &[u8]) -> Met {
-    match read_spi3d(bytes) {
+    match spi3d::read(bytes) {
         Ok(table) => {
             applied(&table);
-            written_again(&table, |table, out| write_spi3d(out, table), |bytes| read_spi3d(bytes));
+            written_again(&table, |table, out| spi3d::write(out, table), |bytes| spi3d::read(bytes));
+            Met::Read
+        }
+        Err(error) => refused(&error),
+    }
+}
+
+/// The JSON of a direct form is applied to all colours, and is the same when written and read again. What it gives may be
+/// infinite or NaN: its weights may be as large as floats are.
+pub fn direct_form(bytes: &[u8]) -> Met {
+    match direct_json::read(bytes) {
+        Ok(form) => {
+            for rgb in hard_colours() {
+                std::hint::black_box(form.apply(rgb));
+            }
+            written_again(
+                &form,
+                |form, out| direct_json::write(out, form, ["a comment"]),
+                |bytes| direct_json::read(bytes),
+            );
             Met::Read
         }
         Err(error) => refused(&error),
@@ -70,7 +87,7 @@ pub fn ktx2(bytes: &[u8]) -> Met {
         Err(error) => return refused(&error),
     };
     let mut file = Vec::new();
-    if let Err(error) = write_ktx2(&mut file, &table, [&comment]) {
+    if let Err(error) = onelight_formats::ktx2::write(&mut file, &table, [&comment]) {
         return refused(&error);
     }
     let reader = ktx2::Reader::new(&file).unwrap_or_else(|error| panic!("the file is no KTX2: {error}"));
@@ -80,7 +97,7 @@ pub fn ktx2(bytes: &[u8]) -> Met {
     let (texels, rest) = level.data.as_chunks::<8>();
     assert_eq!((texels.len(), rest.len()), (size.pow(3), 0));
     for (texel, [r, g, b]) in texels.iter().zip(table.entries()) {
-        let halves = [*r, *g, *b, 1.0].map(f16::from_f32);
+        let halves = [r, g, b, 1.0].map(f16::from_f32);
         assert_eq!(texel.as_chunks::<2>().0, halves.map(f16::to_le_bytes));
     }
     for (key, value) in reader.key_value_data() {
@@ -92,20 +109,20 @@ pub fn ktx2(bytes: &[u8]) -> Met {
 
 /// A PNG as a Hald or a strip: a table that is read gives finite colours, and is the same when written and read again.
 pub(super) fn png(bytes: &[u8]) {
-    match read_hald(bytes) {
+    match hald::read(bytes) {
         Ok(table) => {
             applied(&table);
-            let write = |table: &Lut3d, out: &mut Vec<u8>| write_hald(out, table, PngDepth::Sixteen, [""; 0]);
-            written_again(&table, write, |bytes| read_hald(bytes));
+            let write = |table: &Lut3d, out: &mut Vec<u8>| hald::write(out, table, PngDepth::Sixteen, [""; 0]);
+            written_again(&table, write, |bytes| hald::read(bytes));
         }
         Err(error) => _ = refused(&error),
     }
     for green in [StripGreen::Down, StripGreen::Up] {
-        match read_strip(bytes, green) {
+        match strip::read(bytes, green) {
             Ok(table) => {
                 let write =
-                    |table: &Lut3d, out: &mut Vec<u8>| write_strip(out, table, PngDepth::Sixteen, green, [""; 0]);
-                written_again(&table, write, |bytes| read_strip(bytes, green));
+                    |table: &Lut3d, out: &mut Vec<u8>| strip::write(out, table, PngDepth::Sixteen, green, [""; 0]);
+                written_again(&table, write, |bytes| strip::read(bytes, green));
             }
             Err(error) => _ = refused(&error),
         }

@@ -1,4 +1,6 @@
-use xtask::picture::{Limits, Picture, read_picture, write_picture};
+use std::io::Cursor;
+
+use onelight_picture::{Limits, Picture};
 
 use super::{Met, lut, refused};
 
@@ -7,7 +9,7 @@ pub const LIMITS: Limits = Limits { max_pixels: 1 << 18, max_side: 1 << 13, max_
 
 /// A picture is refused, or has as many pixels as it says, and is the same when written as OpenEXR and read again.
 pub fn check(bytes: &[u8]) -> Met {
-    let picture = match read_picture(bytes, &LIMITS) {
+    let picture = match Picture::read(Cursor::new(bytes), "", LIMITS) {
         Ok(picture) => picture,
         Err(error) => return refused(&error),
     };
@@ -16,8 +18,9 @@ pub fn check(bytes: &[u8]) -> Met {
     assert_eq!(rgb.len(), width * height);
     assert!(alpha.as_ref().is_none_or(|alpha| alpha.len() == rgb.len()));
 
-    let written = write_picture(&picture).unwrap_or_else(|error| panic!("cannot be written: {error:#}"));
-    let again = read_picture(&written, &LIMITS).unwrap_or_else(|error| panic!("our own file is refused: {error:#}"));
+    let mut written = Cursor::new(Vec::new());
+    picture.write_exr(&mut written, &[]).unwrap_or_else(|error| panic!("cannot be written: {error}"));
+    let again = Picture::read(written, "", LIMITS).unwrap_or_else(|error| panic!("our own file is refused: {error}"));
     assert_eq!((again.width, again.height), (*width, *height));
     match (alpha, &again.alpha) {
         // Colours went through a multiplication and a division.

@@ -110,12 +110,12 @@ fn on_screen(stock: &Stock) -> Result<(), onelight::Error> {
 /// A grey card in `negative`, printed on `print`.
 fn printed(negative: &Stock, print: &Stock, grey: PerLayer<DyeAmount>) -> Result<(), onelight::Error> {
     let projection = projection(print)?;
-    let paper = DyeModel::Wedge.amounts(print, print_mid_grey(print)?)?;
+    let print_curves = DyeModel::Wedge.amounts(print, print_mid_grey(print)?)?;
     let density = EquivalentNeutralDensity::default();
-    let target = print_target(Aim::Neutral, density, print, paper.as_ref(), &projection)?;
+    let target = print_target(Aim::Neutral, density, print, print_curves.as_ref(), &projection)?;
     let printer = Duplication::new(negative, print, Printer::default())?;
     let printer = printer.lit(printer.calibrate(grey, target)?);
-    shown(&projection, paper.as_ref().zip_map(printer.expose(grey), AmountCurve::amount));
+    shown(&projection, print_curves.as_ref().zip_map(printer.expose(grey), AmountCurve::amount));
     Ok(())
 }
 

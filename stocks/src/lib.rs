@@ -14,7 +14,13 @@
 //! # Out of scope
 //! Parsing, checking, and every number that is not in a sheet or marked as derived.
 
-/// The files of one stock.
+/// The text of the files of one stock. `onelight-film` reads the four that hold figures: `Stock::parse` of a `SheetText`.
+///
+/// ```
+/// let sheet = onelight_stocks::find("fuji-velvia-50").ok_or("no such stock")?;
+/// assert!(sheet.characteristic_csv.contains("log10_exposure,red,green,blue"));
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DataSheet {
     /// Name of the folder, such as `kodak-5207`.
@@ -68,11 +74,20 @@ sheets! {
     "fuji-3523xd"
 }
 
-/// The stock with this id.
+/// The stock with this id, `None` if there is none.
+///
+/// ```
+/// assert!(onelight_stocks::find("kodak-5207").is_some() && onelight_stocks::find("5207").is_none());
+/// ```
 #[must_use]
 pub fn find(id: &str) -> Option<&'static DataSheet> {
     ALL.iter().find(|sheet| sheet.id == id)
 }
+
+/// The examples of README.md, compiled and run with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
 
 #[cfg(test)]
 mod tests {

@@ -7,7 +7,10 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use onelight::film::{Camera, FrameBufferScale};
 use onelight::spectra::{BufferFormat, white_lumens_per_watt};
-use onelight::{Process, stock};
+
+use onelight::Stock;
+
+use crate::look::ChosenLook;
 
 /// How a picture's numbers become exposure, and the frame buffer between.
 #[derive(Debug, Args)]
@@ -94,7 +97,7 @@ pub(crate) struct SceneExposure {
 
 impl ExposureArguments {
     /// What to do with each pixel before the film.
-    pub(crate) fn resolve(&self, process: &Process) -> Result<SceneExposure> {
+    pub(crate) fn resolve(&self, look: &ChosenLook) -> Result<SceneExposure> {
         let mut notes = Vec::new();
         let settings = [
             ("--shutter", self.shutter.is_some()),
@@ -115,7 +118,7 @@ impl ExposureArguments {
             };
             let speed = match self.iso {
                 Some(speed) => speed,
-                None => stock(&process.camera)?.exposure_index().unwrap_or(100.0),
+                None => look.of_camera(Stock::exposure_index)?.unwrap_or(100.0),
             };
             Some((shutter, f_number, speed))
         };
@@ -201,7 +204,7 @@ mod tests {
 
     fn resolve(arguments: &str) -> Result<SceneExposure> {
         let line = Line::try_parse_from(["line"].into_iter().chain(arguments.split_whitespace()))?;
-        line.exposure.resolve(&Process::default())
+        line.exposure.resolve(&onelight::Process::default().into())
     }
 
     fn grey(arguments: &str, value: f32) -> f32 {

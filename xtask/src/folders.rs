@@ -22,9 +22,9 @@ pub(crate) fn output(name: &str) -> Result<PathBuf> {
 fn found() -> Option<PathBuf> {
     // Cargo tells where xtask lies when it runs it; a binary by itself looks around from where it was started.
     let xtask = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
-    let told = xtask.as_deref().and_then(Path::parent).filter(|folder| is_workspace(folder));
+    let named = xtask.as_deref().and_then(Path::parent).filter(|folder| is_workspace(folder));
     let here = env::current_dir().unwrap_or_default();
-    told.or_else(|| here.ancestors().find(|folder| is_workspace(folder))).map(Path::to_path_buf)
+    named.or_else(|| here.ancestors().find(|folder| is_workspace(folder))).map(Path::to_path_buf)
 }
 
 fn is_workspace(folder: &Path) -> bool {

@@ -1,31 +1,29 @@
-//! The onelight runner: `cargo xtask bake`, `develop`, `stocks`, `fixtures`. The only crate that touches files.
+//! The onelight runner, `cargo xtask`: flags, file names, progress and exit status. The only crate that opens paths.
 
-mod buffers;
-mod certificate;
+mod atomic_file;
 mod command;
-mod compiled;
-mod direct_file;
-mod export;
 mod exposure;
+mod finish;
 mod folders;
-mod likeness;
 mod look;
-pub mod picture;
+mod own_stock;
+mod picture_file;
 mod plot;
 mod preview;
 mod progress;
-mod scene;
 mod scene_colours;
 mod sheet;
 mod switches;
-mod truth;
-mod whole;
+mod words;
 
-use std::io::{self, ErrorKind, Write as _};
+use std::io::{self, Write as _};
 use std::process::ExitCode;
 
-use anyhow::{Result, anyhow};
+use anyhow::Result;
 use clap::{Parser, Subcommand};
+
+// The picture writers know the module by this name until they are a crate.
+use finish::{Report, print};
 
 /// Film simulation for HDR pictures.
 #[derive(Parser)]
@@ -61,32 +59,21 @@ enum Command {
     Tidy(command::tidy::Arguments),
 }
 
-/// What a command says when it is done: text for people, or one JSON object for scripts.
-struct Report {
-    text: String,
-    json: serde_json::Value,
-    as_json: bool,
-}
-
 /// Runs what the command line asks for; 2 where it failed, with one sentence on the standard error.
 pub fn main() -> ExitCode {
+    onelight_picture::silence_panics_while_reading();
     let printed = run(Arguments::parse().command).and_then(|report| print(&report));
     let Err(error) = printed else { return ExitCode::SUCCESS };
     // Where even this cannot be written, only the status is left to tell.
-    let _ = writeln!(io::stderr(), "error: {error:#}");
+    let _ = writeln!(io::stderr(), "error: {error:#}{}", hint(&error));
     ExitCode::from(2)
 }
 
-/// Writes what a command says; a reader that has had enough (`| head`) is no error.
-fn print(report: &Report) -> Result<()> {
-    let mut out = io::stdout().lock();
-    let written = if report.as_json { writeln!(out, "{:#}", report.json) } else { write!(out, "{}", report.text) };
-    match written.and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(anyhow!("the result cannot be written to the standard output: {error}"))
-        }
-        _ => Ok(()),
-    }
+/// Where a name that does not exist is looked up.
+fn hint(error: &anyhow::Error) -> &'static str {
+    let unknown = |cause: &onelight::Error| cause.is_unknown_stock();
+    let found = error.chain().any(|cause| cause.downcast_ref().is_some_and(unknown));
+    if found { " (`cargo xtask stocks` lists all)" } else { "" }
 }
 
 fn run(command: Command) -> Result<Report> {

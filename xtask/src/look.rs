@@ -3,13 +3,18 @@
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use onelight::{Aim, DyeModel, Process, TransferCurve, Word, WorkingSpace};
+use onelight::{
+    Aim, DyeModel, Films, Look, Process, ProcessKeys, SheetKeys, Stock, StockKind, StockRef, TransferCurve,
+    WorkingSpace, stock,
+};
 
+use crate::own_stock::{self, OwnStock};
 use crate::switches::Switches;
+use crate::words::words;
 
 /// Longest description that is read.
 const MAX_LOOK_BYTES: u64 = 64 * 1024;
@@ -21,11 +26,12 @@ pub(crate) struct LookArguments {
     /// Description of a look (look.toml) to begin with; the options below change it
     #[arg(long, value_name = "FILE")]
     look: Option<PathBuf>,
-    /// Film in the camera, such as kodak-5207 (`cargo xtask stocks` lists all) [default: kodak-5207]
-    #[arg(long, value_name = "ID")]
+    /// Film in the camera, such as kodak-5207 (`cargo xtask stocks` lists all), or a folder with a data sheet of your own in
+    /// the form of stocks/kodak-5207 [default: kodak-5207]
+    #[arg(long, value_name = "ID|DIR")]
     camera: Option<String>,
-    /// Film that a negative is printed on, or none [default: kodak-2383 for negatives]
-    #[arg(long, value_name = "ID|none")]
+    /// Film that a negative is printed on, or a folder with its data sheet, or none [default: kodak-2383 for negatives]
+    #[arg(long, value_name = "ID|DIR|none")]
     print: Option<String>,
     /// What an 18 % grey card becomes [default: neutral]
     #[arg(long, value_parser = words::<Aim>())]
@@ -46,30 +52,156 @@ pub(crate) struct LookArguments {
     switches: Switches,
 }
 
-impl LookArguments {
-    /// The process that the arguments describe.
-    pub(crate) fn process(&self) -> Result<Process> {
-        let mut process = match (&self.look, &self.camera) {
-            (Some(file), _) => read(file)?,
-            (None, Some(camera)) => Process::for_camera(camera)?,
-            (None, None) => Process::default(),
+/// A look that was chosen: its description, and the stocks where it names data sheets of one's own.
+#[derive(Debug, Clone)]
+pub(crate) struct ChosenLook {
+    pub(crate) process: Process,
+    films: Option<Arc<Films>>,
+    /// The film that was named for the camera, which sets the exposure beside a tone mapping too.
+    camera: String,
+}
+
+impl From<Process> for ChosenLook {
+    /// A look of built-in stocks, without data sheets of one's own.
+    fn from(process: Process) -> Self {
+        let camera = process.camera().map_or(onelight::DEFAULT_CAMERA, StockRef::id).to_owned();
+        Self { process, films: None, camera }
+    }
+}
+
+impl ChosenLook {
+    /// Compiles the look, with the data sheets of one's own that it uses.
+    pub(crate) fn look(&self) -> Result<Look> {
+        Ok(self.films.as_ref().map_or_else(|| self.process.look(), |films| self.process.look_with(films))?)
+    }
+
+    /// Asks the film in the camera; beside a tone mapping, the one that was named for it.
+    pub(crate) fn of_camera<T>(&self, ask: impl Fn(&Stock) -> T) -> Result<T> {
+        match &self.films {
+            Some(films) => Ok(ask(&films.camera)),
+            None => Ok(ask(&stock(&self.camera)?)),
+        }
+    }
+
+    /// The description with data sheets of one's own by their digests alone: the same wherever they are.
+    pub(crate) fn text_anywhere(&self) -> String {
+        let mut keys = ProcessKeys::from(&self.process);
+        (keys.camera_sheet, keys.print_sheet) = (None, None);
+        keys.to_toml()
+    }
+
+    /// The description as `look.toml` in a folder: data sheets of one's own as seen from there.
+    pub(crate) fn text_in(&self, folder: &Path) -> String {
+        let mut keys = ProcessKeys::from(&self.process);
+        for sheet in [&mut keys.camera_sheet, &mut keys.print_sheet].into_iter().flatten() {
+            *sheet = own_stock::seen_from(folder, sheet);
+        }
+        keys.to_toml()
+    }
+}
+
+/// A film that the command line or a description names.
+enum Named {
+    BuiltIn(String),
+    Own(Box<OwnStock>),
+}
+
+impl Named {
+    fn of_word(word: &str) -> Result<Self> {
+        if own_stock::is_folder(word) {
+            own_stock::read(Path::new(word)).map(|own| Self::Own(Box::new(own)))
+        } else {
+            Ok(Self::BuiltIn(word.to_owned()))
+        }
+    }
+
+    /// As a description in `file` has it.
+    fn of_keys(file: &Path, key: &str, id: &str, sheet: Option<SheetKeys<'_>>) -> Result<Self> {
+        let Some(sheet) = sheet else { return Ok(Self::BuiltIn(id.to_owned())) };
+        let folder = file.parent().unwrap_or(Path::new("")).join(sheet.path);
+        let own = own_stock::read(&folder).with_context(|| format!("{}: {key}_sheet", file.display()))?;
+        if own.sheet.sha256 != sheet.sha256 {
+            bail!(
+                "{}: the data sheet in {} has changed since: its SHA-256 is {}, expected {} (--{key} {1} takes it as it is now)",
+                file.display(),
+                folder.display(),
+                own.sheet.sha256,
+                sheet.sha256
+            );
+        }
+        Ok(Self::Own(Box::new(own)))
+    }
+
+    /// The print film that goes with it in the camera; `known` stays where one is needed.
+    fn usual_print(&self, known: Option<Named>) -> Result<Option<Named>> {
+        let usual = match self {
+            Self::BuiltIn(id) => Process::for_camera(id)?.print().map(|print| print.id().to_owned()),
+            Self::Own(own) => match own.stock.kind() {
+                StockKind::Negative => Some(onelight::DEFAULT_PRINT.to_owned()),
+                // What is no film for a camera is refused with the rest.
+                StockKind::Reversal | StockKind::Print => None,
+            },
         };
-        if let (Some(_), Some(camera)) = (&self.look, &self.camera) {
-            let usual = Process::for_camera(camera)?.print;
-            // The file's print film stays where the new camera film needs one.
-            let print = usual.map(|usual| process.print.unwrap_or(usual));
-            process = Process { camera: camera.clone(), print, ..process };
+        Ok(usual.map(|usual| known.unwrap_or(Named::BuiltIn(usual))))
+    }
+
+    /// Writes it into the keys of a description: id, folder, digest.
+    fn keys(&self) -> (String, Option<String>, Option<String>) {
+        match self {
+            Self::BuiltIn(id) => (id.clone(), None, None),
+            Self::Own(own) => (own.sheet.id.clone(), Some(own.sheet.path.clone()), Some(own.sheet.sha256.clone())),
         }
-        if let Some(print) = &self.print {
-            process.print = Process::parse_print(print)?;
+    }
+
+    fn stock(self) -> Result<Stock> {
+        match self {
+            Self::BuiltIn(id) => Ok(stock(&id)?),
+            Self::Own(own) => Ok(own.stock),
         }
-        process.aim = self.aim.unwrap_or(process.aim);
-        process.dyes = self.dyes.unwrap_or(process.dyes);
-        process.input_space = self.input_space.unwrap_or(process.input_space);
-        process.output_space = self.output_space.unwrap_or(process.output_space);
-        process.output_coding = self.output_coding.unwrap_or(process.output_coding);
-        self.switches.apply(&mut process);
-        Ok(process)
+    }
+}
+
+impl LookArguments {
+    /// The look that the arguments describe.
+    pub(crate) fn chosen(&self) -> Result<ChosenLook> {
+        let mut keys = self.look.as_deref().map_or_else(|| Ok(ProcessKeys::default()), read)?;
+        let (camera, print) = self.films(&keys)?;
+        (keys.camera, keys.camera_sheet, keys.camera_sha256) = camera.keys();
+        (keys.print, keys.print_sheet, keys.print_sha256) = match print.as_ref().map(Named::keys) {
+            Some((id, sheet, sha256)) => (Some(id), sheet, sha256),
+            None => (None, None, None),
+        };
+        keys.aim = self.aim.unwrap_or(keys.aim);
+        keys.dyes = self.dyes.unwrap_or(keys.dyes);
+        keys.input_space = self.input_space.unwrap_or(keys.input_space);
+        keys.output_space = self.output_space.unwrap_or(keys.output_space);
+        keys.output_coding = self.output_coding.unwrap_or(keys.output_coding);
+        self.switches.apply(&mut keys);
+        if keys.camera_sheet.is_none() && keys.print_sheet.is_none() {
+            return Ok(ChosenLook { process: keys.process()?, films: None, camera: keys.camera });
+        }
+        let films = Films { camera: camera.stock()?, print: print.map(Named::stock).transpose()? };
+        Ok(ChosenLook { process: keys.process_with(&films)?, films: Some(Arc::new(films)), camera: keys.camera })
+    }
+
+    /// The film in the camera and the print film: the command line's, else those of the description.
+    fn films(&self, keys: &ProcessKeys) -> Result<(Named, Option<Named>)> {
+        let file = self.look.as_deref().unwrap_or(Path::new(""));
+        let print = match (&self.print, &keys.print) {
+            (Some(word), _) => ProcessKeys::parse_print(word)?.map(|word| Named::of_word(&word)).transpose()?,
+            (None, Some(id)) => Some(Named::of_keys(file, "print", id, keys.print_sheet())?),
+            (None, None) => None,
+        };
+        let Some(word) = &self.camera else {
+            return Ok((Named::of_keys(file, "camera", &keys.camera, keys.camera_sheet())?, print));
+        };
+        let camera = Named::of_word(word)?;
+        if self.print.is_some() {
+            return Ok((camera, print));
+        }
+        // The file's print film stays where the new camera film needs one.
+        let print = camera.usual_print(self.look.is_some().then_some(print).flatten())?;
+        Ok((camera, print))
     }
 
     /// Whether the command line says which films to use.
@@ -83,7 +215,7 @@ impl LookArguments {
     }
 }
 
-fn read(path: &Path) -> Result<Process> {
+fn read(path: &Path) -> Result<ProcessKeys> {
     let name = path.display().to_string();
     if path.is_dir() {
         bail!("{name}: is a folder, expected a look.toml");
@@ -95,11 +227,5 @@ fn read(path: &Path) -> Result<Process> {
     if text.len() as u64 > MAX_LOOK_BYTES {
         bail!("{name}: more than {MAX_LOOK_BYTES} bytes, expected a look.toml");
     }
-    Ok(Process::from_toml(&name, &text)?)
-}
-
-/// Takes the words of a choice, and lists them in the help.
-pub(crate) fn words<T: Word + Send + Sync>() -> impl TypedValueParser<Value = T> {
-    let words = T::ALL.iter().map(|(_, word, help)| PossibleValue::new(*word).help(*help));
-    PossibleValuesParser::new(words).try_map(|word| T::parse(&word))
+    Ok(ProcessKeys::from_toml(&name, &text)?)
 }

@@ -11,7 +11,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::whole::write_whole;
+use crate::atomic_file::write_atomically;
 
 const SIZE: (u32, u32) = (1500, 500);
 const RED: RGBColor = RGBColor(196, 48, 40);
@@ -25,7 +25,7 @@ const GREY: RGBColor = RGBColor(110, 110, 110);
 /// A curve: points, colour, name.
 type Curve = (Vec<(f64, f64)>, RGBColor, &'static str);
 
-/// One set of curves.
+/// One diagram of a stock's plot: curves over one axis, with its titles.
 struct Panel {
     title: &'static str,
     x: &'static str,
@@ -35,11 +35,11 @@ struct Panel {
     mark: Option<(f64, &'static str)>,
 }
 
-/// Writes the plot.
+/// Writes a stock's plot as SVG.
 pub(crate) fn write(path: &Path, stock: &Stock) -> Result<()> {
     let mut svg = String::new();
     draw(&mut svg, stock).map_err(|error| anyhow!("{}: the plot cannot be drawn: {error}", path.display()))?;
-    write_whole(path, |file| Ok(file.write_all(svg.as_bytes())?))
+    write_atomically(path, |file| Ok(file.write_all(svg.as_bytes())?))
 }
 
 fn draw(svg: &mut String, stock: &Stock) -> Result<(), Box<dyn std::error::Error>> {
@@ -59,7 +59,7 @@ const WAVELENGTH: &str = "wavelength (nm)";
 
 fn sensitivity(stock: &Stock) -> Panel {
     let curves = stock.sensitivity().to_array().into_iter().zip(LAYERS).map(|(layer, (colour, name))| {
-        let (first, last) = layer.range_nm();
+        let (first, last) = layer.range_nm().into_inner();
         (sampled(first..last, |nm| layer.log10_at(nm, Tail::LogLinear)), colour, name)
     });
     // Without the density it is stated at, a sensitivity has no unit.
@@ -72,7 +72,7 @@ fn sensitivity(stock: &Stock) -> Panel {
 
 fn characteristic(stock: &Stock) -> Panel {
     let curves = stock.characteristic().to_array().into_iter().zip(LAYERS).map(|(curve, (colour, name))| {
-        let (first, last) = curve.range();
+        let (first, last) = curve.range().into_inner();
         (sampled(first.0..last.0, |h| curve.density(LogExposure(h)).0), colour, name)
     });
     let x = match stock.axis() {
@@ -94,7 +94,7 @@ fn dyes(stock: &Stock) -> Panel {
     let others = [(stock.d_min(), GREY, "D-min"), (stock.neutral(), BLACK, "neutral")];
     let others = others.into_iter().filter_map(|(curve, colour, name)| Some((curve?, colour, name)));
     let curves = dyes.chain(others).map(|(dye, colour, name)| {
-        let (first, last) = dye.range_nm();
+        let (first, last) = dye.range_nm().into_inner();
         (sampled(first..last, |nm| dye.at(nm)), colour, name)
     });
     Panel { title: "spectral density of the dyes", x: WAVELENGTH, y: "density", curves: curves.collect(), mark: None }

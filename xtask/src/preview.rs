@@ -4,13 +4,12 @@ use std::io::Cursor;
 
 use anyhow::Result;
 use image::{ImageFormat, RgbImage};
+use onelight::TransferCurve;
+use onelight::baked::Baked;
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Chromaticity, RgbSpace};
-use onelight::{Process, TransferCurve};
 
-use crate::compiled::Compiled;
 use crate::sheet::{BACKGROUND, caption, paste};
-use crate::truth;
 
 /// Exposures shown, in stops.
 const EXPOSURES: [f32; 3] = [-2.0, 0.0, 2.0];
@@ -22,11 +21,11 @@ const CAPTION: u32 = 28;
 const DOT: (u32, u32) = (2, 2);
 
 /// The sheet as PNG: the scene clipped to the display above, the look below.
-pub(crate) fn sheet(process: &Process, look: &Compiled) -> Result<Vec<u8>> {
-    let scene = truth::rgb((TILE.0 as usize, TILE.1 as usize))?;
-    let to_input = RgbSpace::SRGB.to_about(&process.input_space.space(), Chromaticity::black_body_6500_k())?;
+pub(crate) fn sheet(look: &Baked) -> Result<Vec<u8>> {
+    let scene = onelight_fixtures::scene_rgb((TILE.0 as usize, TILE.1 as usize))?;
+    let to_input = RgbSpace::SRGB.to_about(&look.spaces().input_space.space(), Chromaticity::black_body_6500_k())?;
     // The sheet is sRGB, whatever display the look is made for.
-    let to_srgb = process.output_space.space().to_about(&RgbSpace::SRGB, Chromaticity::D65)?;
+    let to_srgb = look.spaces().output_space.space().to_about(&RgbSpace::SRGB, Chromaticity::D65)?;
     let columns = EXPOSURES.len() as u32;
     let (width, height) = (columns * (TILE.0 + GAP) + GAP, 2 * (TILE.1 + CAPTION) + GAP);
     let mut sheet = RgbImage::from_pixel(width, height, BACKGROUND);
@@ -35,14 +34,14 @@ pub(crate) fn sheet(process: &Process, look: &Compiled) -> Result<Vec<u8>> {
         let exposed: Vec<[f32; 3]> = scene.iter().map(|rgb| rgb.map(|v| v * stops.exp2())).collect();
         let clipped = exposed.iter().map(|rgb| rgb.map(srgb_coded));
         let mut developed: Vec<[f32; 3]> = exposed.iter().map(|rgb| multiply(&to_input, *rgb)).collect();
-        look.apply_to_slice(&mut developed);
+        look.map_in_place(&mut developed);
         for rgb in &mut developed {
-            let linear = rgb.map(|v| process.output_coding.decode(f64::from(v)) as f32);
+            let linear = rgb.map(|v| look.spaces().output_coding.decode(f64::from(v)) as f32);
             *rgb = multiply(&to_srgb, linear).map(srgb_coded);
         }
         caption(&mut sheet, (left, 8), DOT, &format!("scene, clipped, {stops:+} EV"));
         paste(&mut sheet, (left, CAPTION), TILE.0, clipped);
-        caption(&mut sheet, (left, CAPTION + TILE.1 + 8), DOT, &format!("{}, {stops:+} EV", process.name()));
+        caption(&mut sheet, (left, CAPTION + TILE.1 + 8), DOT, &format!("{}, {stops:+} EV", look.name()));
         paste(&mut sheet, (left, 2 * CAPTION + TILE.1), TILE.0, developed);
     }
     let mut png = Vec::new();
@@ -55,5 +54,5 @@ fn srgb_coded(linear: f32) -> f32 {
 }
 
 fn multiply(matrix: &Matrix3<f64>, rgb: [f32; 3]) -> [f32; 3] {
-    (matrix * Vector3::from(rgb.map(f64::from))).data.0[0].map(|v| v as f32)
+    <[f64; 3]>::from(matrix * Vector3::from(rgb.map(f64::from))).map(|v| v as f32)
 }

@@ -1,14 +1,31 @@
 //! Progress bars and clocks.
 
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
+use onelight_benches::Progress;
 
 /// A bar over `length` steps on the terminal; nothing where there is none.
 pub(crate) fn bar(what: &'static str, length: u64) -> ProgressBar {
     let style = ProgressStyle::with_template("{msg:12} [{bar:40}] {percent:>3} %  {eta} left")
         .unwrap_or_else(|_| ProgressStyle::default_bar());
     ProgressBar::new(length).with_style(style.progress_chars("=> ")).with_message(what)
+}
+
+/// A bar for each part of a measurement, one after the other.
+pub(crate) fn bars() -> impl Fn(Progress) + Sync {
+    let shown: Mutex<Option<ProgressBar>> = Mutex::new(None);
+    move |Progress { part, done, steps }| {
+        let mut shown = shown.lock().unwrap_or_else(PoisonError::into_inner);
+        if done == steps {
+            if let Some(bar) = shown.take() {
+                bar.finish_and_clear();
+            }
+        } else {
+            shown.get_or_insert_with(|| bar(part, steps)).set_position(done);
+        }
+    }
 }
 
 /// How long each part of a run took.
@@ -22,12 +39,16 @@ impl Clock {
     pub(crate) fn time<T>(&mut self, part: &'static str, run: impl FnOnce() -> T) -> T {
         let start = Instant::now();
         let value = run();
-        let taken = start.elapsed();
+        self.add(part, start.elapsed());
+        value
+    }
+
+    /// Adds time to a part.
+    pub(crate) fn add(&mut self, part: &'static str, taken: Duration) {
         match self.parts.iter_mut().find(|(name, _)| *name == part) {
             Some((_, sum)) => *sum += taken,
             None => self.parts.push((part, taken)),
         }
-        value
     }
 
     /// `compile 0.03 s, bake 0.21 s, total 0.24 s`
@@ -42,7 +63,7 @@ impl Clock {
         self.parts.iter().filter(|(name, _)| *name == part).map(|(_, time)| *time).sum()
     }
 
-    /// Seconds by part.
+    /// The name of each part with the seconds that it took.
     pub(crate) fn json(&self) -> serde_json::Value {
         self.parts
             .iter()

@@ -6,8 +6,9 @@ use anyhow::{Context, Result, bail};
 use onelight::Process;
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Chromaticity, RgbSpace};
+use onelight_picture::{Chromaticities, Limits, PictureReader, Source};
 
-use crate::picture::{Band, Chromaticities, Limits, PictureReader, Source, open};
+use crate::picture_file::open;
 
 /// Colours taken from all pictures together, evenly spread over their pixels.
 const COLOURS: usize = 1 << 14;
@@ -40,7 +41,7 @@ pub(crate) fn to_input_space(own: Option<&Chromaticities>, process: &Process) ->
     let xy = |[x, y]: [f32; 2]| (f64::from(x), f64::from(y));
     let white = Chromaticity::new(f64::from(c.white[0]), f64::from(c.white[1]));
     let space = RgbSpace::new([xy(c.red), xy(c.green), xy(c.blue)], white);
-    let matrix = space.to_about(&process.input_space.space(), Chromaticity::black_body_6500_k());
+    let matrix = space.to_about(&process.spaces().input_space.space(), Chromaticity::black_body_6500_k());
     matrix.map(Some).context("its chromaticities")
 }
 
@@ -48,18 +49,16 @@ pub(crate) fn to_input_space(own: Option<&Chromaticities>, process: &Process) ->
 fn some_of(picture: &mut PictureReader, to_input: Option<Matrix3<f64>>, count: usize) -> Result<Vec<[f64; 3]>> {
     let pixels = picture.description().width * picture.description().height;
     let every = pixels.div_ceil(count).max(1);
-    let (mut colours, mut band) = (Vec::new(), Band::default());
-    loop {
-        picture.next_into(&mut band)?;
-        if band.rgb.is_empty() {
-            return Ok(colours);
-        }
+    let mut colours = Vec::new();
+    while let Some(band) = picture.next_band()? {
+        let before = band.top() * band.width();
         // The first of the band that is a multiple of `every` in the picture.
-        let first = (band.top * band.width).next_multiple_of(every) - band.top * band.width;
-        let finite = band.rgb.iter().skip(first).step_by(every).filter(|rgb| rgb.iter().all(|v| v.is_finite()));
+        let first = before.next_multiple_of(every) - before;
+        let finite = band.rgb().iter().skip(first).step_by(every).filter(|rgb| rgb.iter().all(|v| v.is_finite()));
         colours.extend(finite.map(|rgb| {
             let rgb = rgb.map(f64::from);
-            to_input.map_or(rgb, |matrix| (matrix * Vector3::from(rgb)).data.0[0])
+            to_input.map_or(rgb, |matrix| (matrix * Vector3::from(rgb)).into())
         }));
     }
+    Ok(colours)
 }

@@ -4,11 +4,11 @@ use std::str::FromStr;
 
 use clap::Args;
 use onelight::{
-    Approach, Calibration, Filters, HeatGlass, Infrared, Matching, PrinterLight, Process, Projector, Reconstruction,
-    Tail, Word, Wratten,
+    Approach, Calibration, Filters, HeatGlass, Infrared, Matching, PrinterLight, ProcessKeys, Projector,
+    Reconstruction, Tail, Word, Wratten,
 };
 
-use crate::look::words;
+use crate::words::words;
 
 /// What each step of the simulation can be changed to; docs/talk.md has the size of each.
 #[derive(Debug, Args)]
@@ -73,24 +73,24 @@ pub(crate) struct Switches {
     curve: Vec<Point>,
 }
 
-/// Red, green, blue.
+/// Three numbers on the command line, for red, green and blue.
 type Triple = [f64; 3];
-/// Stops, value.
+/// A point of a tone curve: stops about mid grey, and the display-coded value.
 type Point = [f64; 2];
 
 impl Switches {
     /// Turns the switches that the command line names.
-    pub(crate) fn apply(&self, process: &mut Process) {
+    pub(crate) fn apply(&self, keys: &mut ProcessKeys) {
         macro_rules! turn {
             ($($field:ident),+ of $target:expr) => {
                 $(if let Some(value) = self.$field { $target.$field = value; })+
             };
         }
-        turn!(approach, neutral_density, overexposure, matching, reconstruction, light, filters, beam_density of process);
-        turn!(calibration, points, infrared, glass, red_tail, projector of process);
-        turn!(contrast, brightness, temperature, saturation of process.first);
+        turn!(approach, neutral_density, overexposure, matching, reconstruction, light, filters, beam_density of keys);
+        turn!(calibration, points, infrared, glass, red_tail, projector of keys);
+        turn!(contrast, brightness, temperature, saturation of keys.first);
         if !self.curve.is_empty() {
-            process.first.curve.clone_from(&self.curve);
+            keys.first.curve.clone_from(&self.curve);
         }
     }
 }
@@ -104,7 +104,7 @@ fn filters(text: &str) -> Result<Filters, String> {
 }
 
 fn calibration(text: &str) -> Result<Calibration, String> {
-    Process::parse_calibration(text).map_err(|error| error.to_string())
+    ProcessKeys::parse_calibration(text).map_err(|error| error.to_string())
 }
 
 fn triple(text: &str) -> Result<Triple, String> {
@@ -131,10 +131,10 @@ mod tests {
         switches: Switches,
     }
 
-    fn process(arguments: &[&str]) -> Process {
-        let mut process = Process::default();
-        Line::parse_from([&["line"], arguments].concat()).switches.apply(&mut process);
-        process
+    fn process(arguments: &[&str]) -> ProcessKeys {
+        let mut keys = ProcessKeys::default();
+        Line::parse_from([&["line"], arguments].concat()).switches.apply(&mut keys);
+        keys
     }
 
     /// Every key of look.toml but the look's own options can be turned on the command line, with the same words.
@@ -161,8 +161,8 @@ mod tests {
             "--saturation=0.9",
             "--curve=-2:0.2,0:0.5",
         ];
-        let (plain, turned) = (Process::default(), process(&arguments));
-        let keys = |process: &Process| process.to_toml().parse::<toml::Table>().unwrap();
+        let (plain, turned) = (ProcessKeys::default(), process(&arguments));
+        let keys = |keys: &ProcessKeys| keys.to_toml().parse::<toml::Table>().unwrap();
         let (before, after) = (keys(&plain), keys(&turned));
         let elsewhere = ["version", "camera", "print", "aim", "dyes", "input_space", "output_space", "output_coding"];
         for (key, value) in &after {

@@ -1,19 +1,27 @@
 use std::sync::OnceLock;
 
 use onelight_spectra::quantity::Transmittance;
-use onelight_spectra::{NumberTable, SpectralDistribution, SpectralShape, quantity::Responsivity};
+use onelight_spectra::{SpectralDistribution, SpectralShape, quantity::Responsivity};
 
-use crate::curve::Density;
 use crate::error::Error;
 use crate::layer::PerLayer;
+use crate::quantity::Density;
+use crate::table::NumberTable;
 
-/// Which densitometer a density was read with (\[ISO5-3\]).
+/// Which densitometer a density was read with (\[ISO5-3\]): the same film has other densities by another.
+///
+/// ```
+/// use onelight_film::Densitometry;
+/// // Status M looks for red further up the spectrum than status A.
+/// let red = |which: Densitometry| which.responses().red.iter().map(|(nm, weight)| nm * weight).sum::<f64>();
+/// assert!(red(Densitometry::StatusM) > red(Densitometry::StatusA));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Densitometry {
-    /// For negatives, to be printed.
+    /// Status M: for negatives, which are to be printed.
     StatusM,
-    /// For prints and reversal film, to be looked at.
+    /// Status A: for prints and reversal film, which are to be looked at.
     StatusA,
 }
 
@@ -58,8 +66,8 @@ impl Densitometry {
 fn read(source: &str, text: &str) -> Result<PerLayer<SpectralDistribution<Responsivity>>, Error> {
     let table = NumberTable::parse(source, text)?;
     PerLayer::all(()).try_map(|(), layer| {
-        let nodes = table.nodes("wavelength_nm", layer)?;
-        let response = |nm: f64| nodes.at(nm).map_or(0.0, |log10| 10f64.powf(log10));
+        let points = table.points("wavelength_nm", layer)?;
+        let response = |nm: f64| points.at(nm).map_or(0.0, |log10| 10f64.powf(log10));
         let sum: f64 = SpectralShape::VISIBLE.wavelengths_nm().map(response).sum();
         Ok(SpectralDistribution::from_fn(SpectralShape::VISIBLE, |nm| response(nm) / sum)?)
     })

@@ -2,10 +2,15 @@
 
 use std::fmt;
 
-use crate::curve::{CharacteristicCurve, LogExposure};
-use crate::error::{Error, Kind};
+use crate::curve::CharacteristicCurve;
+use crate::error::{Error, ErrorKind};
 use crate::layer::PerLayer;
+use crate::printable::printable;
+use crate::quantity::LogExposure;
 use crate::stock::{Stock, StockKind};
+
+/// Most characters of a word that a message repeats.
+const MESSAGE_CHARACTERS: usize = 40;
 
 /// How strongly the layers of a colour film inhibit each other's development, in log10 exposure for a unit of developed
 /// density.
@@ -71,7 +76,7 @@ impl InterImage {
     pub fn new(near: f64, far: f64) -> Result<Self, Error> {
         for (what, found) in [("near", near), ("far", far)] {
             if !(0.0..=Self::MAX).contains(&found) {
-                return Err(Kind::InterImage { what, found }.into());
+                return Err(ErrorKind::InterImage { what, found, max: Self::MAX }.into());
             }
         }
         Ok(Self { near, far })
@@ -92,7 +97,8 @@ impl InterImage {
             let number = |text: &str| text.trim().parse::<f64>().ok();
             number(near).zip(number(far))
         });
-        let (near, far) = numbers.ok_or_else(|| Kind::InterImageWord { found: word.chars().take(40).collect() })?;
+        let (near, far) =
+            numbers.ok_or_else(|| ErrorKind::InterImageWord { found: printable(word, MESSAGE_CHARACTERS) })?;
         Self::new(near, far)
     }
 
@@ -225,11 +231,8 @@ impl InterImageEffect {
         let InterImage { near, far } = self.strength;
         // Differences of q, not a matrix of them: where all are equal nothing moves, to the last bit.
         let [red_green, green_blue, red_blue] = [q[0] - q[1], q[1] - q[2], q[0] - q[2]];
-        let shift = [
-            near * red_green + far * red_blue,
-            near * (green_blue - red_green),
-            -near * green_blue - far * red_blue,
-        ];
+        let shift =
+            [near * red_green + far * red_blue, near * (green_blue - red_green), -near * green_blue - far * red_blue];
         h.zip_map(PerLayer::from(shift), |h, shift| LogExposure(h.0 + shift))
     }
 }

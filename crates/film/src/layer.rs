@@ -8,11 +8,11 @@
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct PerLayer<T> {
-    /// The red-sensitive layer.
+    /// Of the layer that red light exposes; its dye is cyan.
     pub red: T,
-    /// The green-sensitive layer.
+    /// Of the layer that green light exposes; its dye is magenta.
     pub green: T,
-    /// The blue-sensitive layer.
+    /// Of the layer that blue light exposes; its dye is yellow.
     pub blue: T,
 }
 
@@ -28,30 +28,30 @@ impl<T> PerLayer<T> {
         Self { red: value.clone(), green: value.clone(), blue: value }
     }
 
-    /// Red, green, blue.
+    /// The values in the order red, green, blue.
     pub fn to_array(self) -> [T; 3] {
         [self.red, self.green, self.blue]
     }
 
-    /// The layers by reference.
+    /// The three values by reference, to map or zip them without moving.
     pub fn as_ref(&self) -> PerLayer<&T> {
         PerLayer { red: &self.red, green: &self.green, blue: &self.blue }
     }
 
-    /// `f` of each layer's value.
+    /// What `f` makes of each layer's value.
     pub fn map<U>(self, mut f: impl FnMut(T) -> U) -> PerLayer<U> {
         PerLayer { red: f(self.red), green: f(self.green), blue: f(self.blue) }
     }
 
-    /// `f` of both values of each layer.
+    /// What `f` makes of the two values of each layer.
     pub fn zip_map<U, V>(self, other: PerLayer<U>, mut f: impl FnMut(T, U) -> V) -> PerLayer<V> {
         PerLayer { red: f(self.red, other.red), green: f(self.green, other.green), blue: f(self.blue, other.blue) }
     }
 
-    /// `f` of each layer's value and name, or the first error.
+    /// What `f` makes of each layer's value and name, or the first error.
     ///
     /// # Errors
-    /// Whatever `f` returns.
+    /// The first error that `f` returns; the layers after it are not tried.
     pub fn try_map<U, E>(self, mut f: impl FnMut(T, &'static str) -> Result<U, E>) -> Result<PerLayer<U>, E> {
         let [red, green, blue] = LAYER_NAMES;
         Ok(PerLayer { red: f(self.red, red)?, green: f(self.green, green)?, blue: f(self.blue, blue)? })

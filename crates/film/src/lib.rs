@@ -5,10 +5,11 @@
 //! - [`CharacteristicCurve`]: density over log exposure; [`Densitometry`]: status M and A
 //! - [`InterImageEffect`]: layers that hold back each other's development
 //! - [`DyeModel`]: characteristic curves to amounts of dye; [`Dyes`]: amounts to spectral density
+//! - [`NumberTable`]: the comma-separated tables of a data sheet, with errors that name the line
 //!
 //! ```
 //! use onelight_film::{DyeModel, ExposureMatrix, LogExposure, Matching, PerLayer, SheetText, Stock};
-//! use onelight_spectra::{Basis, Reconstruction, SpectralShape};
+//! use onelight_spectra::{Basis, MID_GREY, Reconstruction, SpectralShape};
 //!
 //! let files = onelight_stocks::find("kodak-5207").ok_or("no such stock")?;
 //! let stock = Stock::parse(&SheetText {
@@ -22,7 +23,7 @@
 //! // A grey card, exposed: the layers, the dye they make, the light that passes.
 //! let mid_grey = PerLayer::all(stock.mid_grey()?);
 //! let basis = Basis::new(Reconstruction::Smooth)?;
-//! let exposure = ExposureMatrix::new(&stock, &basis, Matching::Grey, mid_grey)?.expose([0.18; 3]);
+//! let exposure = ExposureMatrix::new(&stock, &basis, Matching::Grey, mid_grey)?.expose([MID_GREY; 3]);
 //! let curves = DyeModel::Wedge.amounts(&stock, mid_grey)?;
 //! let amounts = curves.as_ref().zip_map(exposure, |curve, e| curve.amount(LogExposure::of(e)));
 //! let film = stock.dyes_on(SpectralShape::VISIBLE)?.density(amounts).transmittance();
@@ -32,8 +33,10 @@
 //! ```
 //!
 //! # Out of scope
-//! Printers and projectors, look-up tables, displays; grain and halation. Keys in square brackets are resolved in REFERENCES.md at the top of the repository.
+//! Printers and projectors, look-up tables, displays; grain and halation. Keys in square brackets are resolved in REFERENCES.md
+//! at the top of the repository.
 
+mod amounts;
 mod curve;
 mod densitometry;
 mod dye;
@@ -41,16 +44,30 @@ mod error;
 mod exposure;
 mod inter_image;
 mod layer;
+mod metering;
+mod printable;
+mod quantity;
 mod sensitivity;
 mod stock;
+mod table;
 mod tail;
 
-pub use curve::{AmountCurve, CharacteristicCurve, Density, Direction, DyeAmount, EXPOSURE_FLOOR, LogExposure};
+pub use amounts::DyeModel;
+pub use curve::{AmountCurve, CharacteristicCurve, Direction};
 pub use densitometry::Densitometry;
-pub use dye::{DyeDensity, DyeModel, Dyes};
+pub use dye::{DyeDensity, Dyes};
 pub use error::Error;
 pub use exposure::{Camera, ExposureMatrix, FrameBufferScale, Matching};
 pub use inter_image::{InterImage, InterImageEffect, InterImageOrigin};
 pub use layer::{LAYER_NAMES, PerLayer};
-pub use sensitivity::{SpectralSensitivity, Tail};
-pub use stock::{ExposureAxis, MidGrey, Normalisation, Origin, SheetText, Stock, StockKind, Uncertainty};
+pub use onelight_spectra::MID_GREY;
+pub use printable::printable;
+pub use quantity::{Density, DyeAmount, EXPOSURE_FLOOR, LogExposure};
+pub use sensitivity::{SensitivityPeak, SpectralSensitivity, Tail};
+pub use stock::{AimDensities, ExposureAxis, MidGrey, Normalisation, Origin, SheetText, Stock, StockKind, Uncertainty};
+pub use table::{MAX_COLUMNS, MAX_ROWS, NumberTable};
+
+/// The examples of README.md, compiled and run with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -5,10 +5,11 @@ use wgpu::{
     ShaderStages, StorageTextureAccess, TextureViewDescriptor, TextureViewDimension,
 };
 
-use crate::bound::{BoundLook, LookSettings};
-use crate::error::{Error, Kind};
+use crate::bound::BoundLook;
+use crate::error::{Error, ErrorKind};
 use crate::form::FormKind;
-use crate::pass::compute_pipeline;
+use crate::pipeline::compute_pipeline;
+use crate::settings::LookSettings;
 use crate::shader;
 
 /// Nodes of a work group along each side.
@@ -29,7 +30,7 @@ const GROUP: u32 = 4;
 /// let film = FilmPass::new(device, queue, plain, wgpu::TextureFormat::Rgba8Unorm)?;
 /// let bake = TableBake::new(device, queue, direct, film.look())?;
 /// // In a frame whose look differs from the last one's, before `film.encode`.
-/// bake.swap(queue, next)?;
+/// bake.upload(queue, next)?;
 /// bake.encode(encoder);
 /// # Ok(())
 /// # }
@@ -46,13 +47,13 @@ impl TableBake {
     /// A bake of a direct form into the table of a plain look, which keeps its shaper.
     ///
     /// # Errors
-    /// If `into` is not a plain look, the device has no compute shaders, or as [`BoundLook::swap`].
+    /// If `into` is not a plain look, the device has no compute shaders, or as [`BoundLook::upload`].
     pub fn new(device: &Device, queue: &Queue, form: &DirectForm, into: &BoundLook) -> Result<Self, Error> {
         let (FormKind::Plain, Some(table)) = (into.kind(), into.table()) else {
-            return Err(Kind::OtherForm { found: into.kind(), expected: FormKind::Plain }.into());
+            return Err(ErrorKind::OtherForm { found: into.kind(), expected: FormKind::Plain }.into());
         };
         if device.limits().max_compute_invocations_per_workgroup < GROUP.pow(3) {
-            return Err(Kind::NoCompute.into());
+            return Err(ErrorKind::NoCompute.into());
         }
         let look = BoundLook::new(device, queue, form, &LookSettings::default())?;
         let format = table.texture.format();
@@ -81,15 +82,15 @@ impl TableBake {
         Ok(Self { look, into, size: table.size as u32, pipeline })
     }
 
-    /// Uploads another direct form; see [`BoundLook::swap`].
+    /// Uploads another direct form; see [`BoundLook::upload`].
     ///
     /// # Errors
-    /// As there.
-    pub fn swap(&self, queue: &Queue, form: &DirectForm) -> Result<(), Error> {
-        self.look.swap(queue, form)
+    /// As there. The look that is there stays.
+    pub fn upload(&self, queue: &Queue, form: &DirectForm) -> Result<(), Error> {
+        self.look.upload(queue, form)
     }
 
-    /// Fills the table.
+    /// Fills the table, in the order of the encoder's other work: passes encoded after this one see the new entries.
     pub fn encode(&self, encoder: &mut CommandEncoder) {
         let groups = self.size.div_ceil(GROUP);
         let mut pass =

@@ -1,41 +1,38 @@
-use onelight_lut::Storage;
+use onelight_lut::{Lut3d, Storage};
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry,
     BindingResource, BindingType, Buffer, BufferBindingType, BufferDescriptor, BufferUsages, Device, Extent3d,
-    Features, FilterMode, Origin3d, Queue, SamplerBindingType, SamplerDescriptor, ShaderStages, TexelCopyBufferLayout,
-    TexelCopyTextureInfo, Texture, TextureAspect, TextureDescriptor, TextureDimension, TextureFormat,
-    TextureSampleType, TextureUsages, TextureViewDescriptor, TextureViewDimension,
+    Features, FilterMode, Limits, Origin3d, Queue, SamplerBindingType, SamplerDescriptor, ShaderStages,
+    TexelCopyBufferLayout, TexelCopyTextureInfo, Texture, TextureAspect, TextureDescriptor, TextureDimension,
+    TextureFormat, TextureSampleType, TextureUsages, TextureViewDescriptor, TextureViewDimension,
 };
 
 use crate::bytes::{CURVE_ROWS, LookBytes, MAX_POINTS, TableBytes};
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::form::{Form, FormKind};
-use crate::shader::Fetch;
-use crate::uniform::After;
-
-/// How a look's table is kept and read; nothing to a direct form.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LookSettings {
-    /// How it is read.
-    pub fetch: Fetch,
-    /// What the entries of its texture are: [`Storage::F16`] or [`Storage::F32`]. The CPU's twin of a stored table is
-    /// [`Storage::stored`].
-    pub storage: Storage,
-}
-
-impl Default for LookSettings {
-    /// Single texels of half floats.
-    fn default() -> Self {
-        Self { fetch: Fetch::Texels, storage: Storage::F16 }
-    }
-}
+use crate::settings::{Fetch, LookSettings};
+use crate::target::TargetCoding;
 
 /// A look's numbers on the GPU: what the shader text of [`wgsl`](crate::wgsl) reads.
+///
+/// ```no_run
+/// use onelight_gpu::{Bindings, BoundLook, Headless, LookSettings, wgsl};
+///
+/// let gpu = Headless::open(&Default::default())?;
+/// let form = onelight::Process::default().compile()?.direct(&Default::default())?;
+/// let settings = LookSettings { bindings: Bindings { group: 1, first: 0 }, ..Default::default() };
+/// let look = BoundLook::new(&gpu.device, &gpu.queue, &form, &settings)?;
+/// // The text calls `onelight_develop(rgb)`; the pipeline's layout has `look.layout()` at group 1, and each pass calls
+/// // `pass.set_bind_group(1, look.bind_group(), &[])`.
+/// let shader = format!("{}\n{}", wgsl(look.kind(), &settings), "/* the engine's own shader */");
+/// # let _ = shader;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct BoundLook {
     kind: FormKind,
     settings: LookSettings,
-    after: After,
+    target: TargetCoding,
     uniform: Buffer,
     table: Option<Table>,
     points: Option<Texture>,
@@ -43,7 +40,7 @@ pub struct BoundLook {
     bind_group: BindGroup,
 }
 
-/// The texture of a table.
+/// A table's texture, with its nodes a side.
 #[derive(Debug)]
 pub(crate) struct Table {
     pub(crate) texture: Texture,
@@ -54,29 +51,31 @@ impl BoundLook {
     /// Makes the resources for a form and uploads it.
     ///
     /// # Errors
-    /// As [`LookBytes::new`], or if a table of 32-bit floats is to be filtered on a device that cannot.
+    /// As [`LookBytes::new`], or if the device has no bindings of those numbers, no 3D textures of the table's size, or no filter for
+    /// 32-bit floats and the settings ask for one.
     pub fn new<'a>(
         device: &Device,
         queue: &Queue,
         form: impl Into<Form<'a>>,
         settings: &LookSettings,
     ) -> Result<Self, Error> {
-        Self::before(device, queue, form.into(), settings, After::Stored)
+        Self::for_target(device, queue, form.into(), settings, TargetCoding::Stored)
     }
 
-    /// The same for a target that may encode.
-    pub(crate) fn before(
+    /// [`BoundLook::new`] for a target that may encode what is stored in it.
+    pub(crate) fn for_target(
         device: &Device,
         queue: &Queue,
         form: Form<'_>,
         settings: &LookSettings,
-        after: After,
+        target: TargetCoding,
     ) -> Result<Self, Error> {
-        let look = LookBytes::before(form, settings.storage, after)?;
+        check_limits(&device.limits(), form, settings)?;
+        let look = LookBytes::for_target(form, settings.storage, target)?;
         let table = look.table.as_ref().map(|table| Table::new(device, table));
         let filtered = settings.fetch == Fetch::Filtered && table.is_some();
         if filtered && settings.storage == Storage::F32 && !device.features().contains(Features::FLOAT32_FILTERABLE) {
-            return Err(Kind::NotFilterable.into());
+            return Err(ErrorKind::NotFilterable.into());
         }
         let points = (!look.curves.is_empty()).then(|| points_texture(device));
         let uniform = device.create_buffer(&BufferDescriptor {
@@ -85,10 +84,11 @@ impl BoundLook {
             usage: BufferUsages::UNIFORM | BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let layout = layout(device, look.kind, filtered);
-        let bind_group = bind_group(device, &layout, &uniform, table.as_ref(), points.as_ref(), filtered);
-        let bound = Self { kind: look.kind, settings: *settings, after, uniform, table, points, layout, bind_group };
-        bound.write(queue, &look);
+        let layout = layout(device, look.kind, filtered, settings.bindings.first);
+        let bind_group =
+            bind_group(device, &layout, settings.bindings.first, &uniform, table.as_ref(), points.as_ref(), filtered);
+        let bound = Self { kind: look.kind, settings: *settings, target, uniform, table, points, layout, bind_group };
+        bound.write_all(queue, &look);
         Ok(bound)
     }
 
@@ -96,45 +96,45 @@ impl BoundLook {
     ///
     /// # Errors
     /// If it has another form or another size of table, or as [`LookBytes::new`]. The resources then hold what they held.
-    pub fn swap<'a>(&self, queue: &Queue, form: impl Into<Form<'a>>) -> Result<(), Error> {
+    pub fn upload<'a>(&self, queue: &Queue, form: impl Into<Form<'a>>) -> Result<(), Error> {
         let form = form.into();
         if form.kind() != self.kind {
-            return Err(Kind::OtherForm { found: form.kind(), expected: self.kind }.into());
+            return Err(ErrorKind::OtherForm { found: form.kind(), expected: self.kind }.into());
         }
-        let look = LookBytes::before(form, self.settings.storage, self.after)?;
+        let look = LookBytes::for_target(form, self.settings.storage, self.target)?;
         if let (Some(new), Some(table)) = (&look.table, &self.table)
             && new.size != table.size
         {
-            return Err(Kind::TableSize { found: new.size, expected: table.size }.into());
+            return Err(ErrorKind::TableSize { found: new.size, expected: table.size }.into());
         }
-        self.write(queue, &look);
+        self.write_all(queue, &look);
         Ok(())
     }
 
-    fn write(&self, queue: &Queue, look: &LookBytes) {
+    fn write_all(&self, queue: &Queue, look: &LookBytes) {
         queue.write_buffer(&self.uniform, 0, &look.uniform);
         if let (Some(new), Some(table)) = (&look.table, &self.table) {
-            write(queue, &table.texture, [0; 3], [new.size as u32; 3], &new.bytes);
+            write_texels(queue, &table.texture, [0; 3], [new.size as u32; 3], &new.bytes);
         }
         for curves in &look.curves {
             if let Some(points) = &self.points {
-                write(queue, points, [0, curves.row, 0], [curves.points as u32, 3, 1], &curves.bytes);
+                write_texels(queue, points, [0, curves.row, 0], [curves.points as u32, 3, 1], &curves.bytes);
             }
         }
     }
 
-    /// Which form it holds.
+    /// Which of the three forms it holds.
     pub fn kind(&self) -> FormKind {
         self.kind
     }
 
-    /// How its table is kept and read.
+    /// How its table is stored and read, and where a shader finds it.
     pub fn settings(&self) -> &LookSettings {
         &self.settings
     }
 
-    /// The layout of [`BoundLook::bind_group`], for pipelines of the user's: uniform buffer 0, table 1, points of curves 2,
-    /// filter 3, as far as the form has them; for compute and fragment shaders.
+    /// The layout of [`BoundLook::bind_group`], for pipelines of the user's: uniform buffer, table, points of curves and filter, as
+    /// far as the form has them, from [`Bindings::first`](crate::Bindings::first) on; for compute and fragment shaders.
     pub fn layout(&self) -> &BindGroupLayout {
         &self.layout
     }
@@ -151,6 +151,16 @@ impl BoundLook {
     pub(crate) fn table(&self) -> Option<&Table> {
         self.table.as_ref()
     }
+}
+
+/// That the device can hold what is about to be made.
+fn check_limits(limits: &Limits, form: Form<'_>, settings: &LookSettings) -> Result<(), Error> {
+    let max = limits.max_bindings_per_bind_group.saturating_sub(4);
+    if settings.bindings.first > max {
+        return Err(ErrorKind::Binding { found: settings.bindings.first, max }.into());
+    }
+    let (found, max) = (form.table().map_or(0, Lut3d::size), limits.max_texture_dimension_3d);
+    if found > max as usize { Err(ErrorKind::TableLimit { found, max }.into()) } else { Ok(()) }
 }
 
 impl Table {
@@ -173,7 +183,7 @@ impl Table {
     }
 }
 
-fn write(queue: &Queue, texture: &Texture, [x, y, z]: [u32; 3], size: [u32; 3], bytes: &[u8]) {
+fn write_texels(queue: &Queue, texture: &Texture, [x, y, z]: [u32; 3], size: [u32; 3], bytes: &[u8]) {
     let texel = texture.format().block_copy_size(None).unwrap_or(0);
     let [width, height, depth_or_array_layers] = size;
     let to = TexelCopyTextureInfo { texture, mip_level: 0, origin: Origin3d { x, y, z }, aspect: TextureAspect::All };
@@ -195,9 +205,9 @@ fn points_texture(device: &Device) -> Texture {
     })
 }
 
-fn layout(device: &Device, kind: FormKind, filtered: bool) -> BindGroupLayout {
+fn layout(device: &Device, kind: FormKind, filtered: bool, first: u32) -> BindGroupLayout {
     let visibility = ShaderStages::FRAGMENT | ShaderStages::COMPUTE;
-    let entry = |binding, ty| BindGroupLayoutEntry { binding, visibility, ty, count: None };
+    let entry = |offset, ty| BindGroupLayoutEntry { binding: first + offset, visibility, ty, count: None };
     let texture = |view_dimension, filterable| BindingType::Texture {
         sample_type: TextureSampleType::Float { filterable },
         view_dimension,
@@ -221,6 +231,7 @@ fn layout(device: &Device, kind: FormKind, filtered: bool) -> BindGroupLayout {
 fn bind_group(
     device: &Device,
     layout: &BindGroupLayout,
+    first: u32,
     uniform: &Buffer,
     table: Option<&Table>,
     points: Option<&Texture>,
@@ -243,8 +254,9 @@ fn bind_group(
         points.as_ref().map(BindingResource::TextureView),
         sampler.as_ref().map(BindingResource::Sampler),
     ];
-    let entries =
-        (0..).zip(resources).filter_map(|(binding, resource)| Some(BindGroupEntry { binding, resource: resource? }));
+    let entries = (first..)
+        .zip(resources)
+        .filter_map(|(binding, resource)| Some(BindGroupEntry { binding, resource: resource? }));
     let entries: Vec<_> = entries.collect();
     device.create_bind_group(&BindGroupDescriptor { label: Some("onelight look"), layout, entries: &entries })
 }

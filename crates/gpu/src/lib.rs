@@ -14,7 +14,7 @@
 //! // In every frame, with the frame's own encoder.
 //! film.encode(encoder, hdr, display)?;
 //! // Another stock: an upload, no pipeline, no wait.
-//! film.swap(queue, other)?;
+//! film.upload(queue, other)?;
 //! # Ok(())
 //! # }
 //! ```
@@ -22,7 +22,8 @@
 //! - [`FilmPass::encode`] writes a texture, [`FilmPass::draw`] into a render pass of the user's;
 //! - [`wgsl`] and [`BoundLook`] are the same for a shader of the user's: `onelight_develop(rgb)`; with [`LookBytes`] also
 //!   without wgpu, or with another version of it;
-//! - [`TableBake`] fills the table of a plain form from a direct form, on the GPU.
+//! - [`TableBake`] fills the table of a plain form from a direct form, on the GPU;
+//! - `Headless` (with the feature `native`) opens a device without a window and reads back what it made.
 //!
 //! The device, the queue and the submission are the user's. No backend is chosen here: the program enables one of
 //! wgpu's (`wgpu = { version = "30", features = ["vulkan"] }`), or the feature `native` of this crate.
@@ -34,27 +35,41 @@
 //! through; in it NaN becomes 0, and what lies beyond ±1e30 becomes that.
 //!
 //! # Out of scope
-//! Devices, windows, surfaces, and reading results back. Pictures of more than [`MAX_SIDE`] pixels a side.
+//! Windows, surfaces, and the user's own device. Pictures of more than [`MAX_SIDE`] pixels a side.
 
 mod bake;
 mod bound;
 mod bytes;
+mod check;
 mod error;
 mod form;
+#[cfg(feature = "native")]
+mod headless;
+#[cfg(test)]
+mod layout;
 mod pass;
+mod pipeline;
+mod settings;
 mod shader;
 mod target;
+#[cfg(test)]
+mod translation;
 mod uniform;
 
 pub use bake::TableBake;
-pub use bound::{BoundLook, LookSettings};
+pub use bound::BoundLook;
 pub use bytes::{CURVE_ROWS, CurveBytes, LookBytes, MAX_POINTS, TableBytes};
+pub use check::MAX_SIDE;
 pub use error::Error;
 pub use form::{Form, FormKind};
+#[cfg(feature = "native")]
+pub use headless::{Headless, HeadlessSettings};
 pub use pass::FilmPass;
-pub use shader::{Fetch, wgsl};
+pub use settings::{Bindings, Fetch, LookSettings};
+pub use shader::wgsl;
 pub use uniform::MAX_TERMS;
 pub use wgpu;
 
-/// The most pixels a side: what every WebGPU device takes.
-pub const MAX_SIDE: u32 = 8192;
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -3,18 +3,8 @@
 use wgpu::TextureFormat;
 
 use crate::form::FormKind;
+use crate::settings::{Bindings, Fetch, LookSettings};
 use crate::target::Target;
-
-/// How a form's table is read.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Fetch {
-    /// As the form says, from single texels in full precision: the CPU's result.
-    #[default]
-    Texels,
-    /// Trilinearly by the texture unit, whatever the form says: the fastest. Its weights have 8 bits on most cards, so that
-    /// what is read lies up to 1/512 of the difference between neighbouring nodes away, for each axis.
-    Filtered,
-}
 
 const FINITE: &str = include_str!("shader/finite.wgsl");
 const EXPOSURE: &str = include_str!("shader/exposure.wgsl");
@@ -24,18 +14,30 @@ const PIXEL: &str = include_str!("shader/entry/pixel.wgsl");
 
 /// The text of `onelight_develop(rgb: vec3f) -> vec3f` for one form, to be put into an engine's own shader.
 ///
-/// Scene-linear RGB in, what the form yields out. It reads the bindings 0 to 3 of group 0, which
-/// [`BoundLook::bind_group`](crate::BoundLook::bind_group) fills; all names begin with `onelight` or `ONELIGHT`. The direct
-/// form has no table, so `fetch` makes no difference to it.
+/// Scene-linear RGB in, what the form yields out. It reads the resources that
+/// [`BoundLook::bind_group`](crate::BoundLook::bind_group) made with the same settings holds, at the numbers of
+/// [`Bindings`]; all names begin with `onelight` or `ONELIGHT`.
 ///
 /// ```
-/// let wgsl = onelight_gpu::wgsl(onelight_gpu::FormKind::Direct, Default::default());
-/// assert!(wgsl.contains("fn onelight_develop(rgb: vec3f) -> vec3f"));
+/// use onelight_gpu::{FormKind, LookSettings, wgsl};
+///
+/// let text = wgsl(FormKind::Direct, &LookSettings::default());
+/// assert!(text.contains("fn onelight_develop(rgb: vec3f) -> vec3f"));
 /// ```
-pub fn wgsl(kind: FormKind, fetch: Fetch) -> String {
-    develop(kind, fetch).join("\n")
+pub fn wgsl(kind: FormKind, settings: &LookSettings) -> String {
+    let text = develop(kind, settings.fetch).join("\n");
+    bound_at(text, settings.bindings)
 }
 
+/// The text with its four bindings elsewhere; the last one first, so that none is moved twice.
+fn bound_at(text: String, Bindings { group, first }: Bindings) -> String {
+    (0..4).rev().fold(text, |text, offset| {
+        let binding = u64::from(first) + offset;
+        text.replace(&format!("@group(0) @binding({offset})"), &format!("@group({group}) @binding({binding})"))
+    })
+}
+
+/// The files of `onelight_develop`, in an order that any compiler takes.
 fn develop(kind: FormKind, fetch: Fetch) -> Vec<&'static str> {
     let table = match fetch {
         Fetch::Texels => include_str!("shader/fetch/texels.wgsl"),
@@ -108,6 +110,3 @@ fn stored(target: Target) -> &'static str {
         Target::Single => include_str!("shader/target/single.wgsl"),
     }
 }
-
-#[cfg(test)]
-mod translation;

@@ -1,25 +1,34 @@
 use wgpu::{Device, TextureFormat, TextureUsages};
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 
-/// What is written to, by how it takes numbers.
+/// A format that can be written, by how it takes numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Target {
-    /// Integers for 0 to 1.
+    /// Integers that stand for 0 to 1.
     Unorm(TextureFormat),
     /// The same behind a view that encodes by the sRGB curve.
     Srgb(TextureFormat),
-    /// Half floats.
+    /// Half floats in four channels: `Rgba16Float`.
     Half,
-    /// Floats.
+    /// 32-bit floats in four channels: `Rgba32Float`.
     Single,
 }
 
-/// How a pass writes.
+/// Which kind of shader writes the target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Way {
+pub(crate) enum WriteMethod {
     Compute,
     Draw,
+}
+
+/// What the target does to the values that a shader gives it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum TargetCoding {
+    /// It stores them as they are.
+    Stored,
+    /// It encodes them by the sRGB curve.
+    Srgb,
 }
 
 impl Target {
@@ -31,7 +40,7 @@ impl Target {
             TextureFormat::Rgba8UnormSrgb | TextureFormat::Bgra8UnormSrgb => Ok(Self::Srgb(format)),
             TextureFormat::Rgba16Float => Ok(Self::Half),
             TextureFormat::Rgba32Float => Ok(Self::Single),
-            found => Err(Kind::TargetFormat { found }.into()),
+            found => Err(ErrorKind::TargetFormat { found }.into()),
         }
     }
 
@@ -43,15 +52,20 @@ impl Target {
         }
     }
 
+    pub(crate) fn coding(self) -> TargetCoding {
+        if matches!(self, Self::Srgb(_)) { TargetCoding::Srgb } else { TargetCoding::Stored }
+    }
+
     /// By compute where WebGPU lets shaders write the format and the device computes at all.
-    pub(crate) fn way(self, device: &Device) -> Way {
+    pub(crate) fn write_method(self, device: &Device) -> WriteMethod {
         let writable = matches!(self, Self::Unorm(TextureFormat::Rgba8Unorm) | Self::Half | Self::Single);
-        if writable && device.limits().max_compute_invocations_per_workgroup >= 64 { Way::Compute } else { Way::Draw }
+        let computes = device.limits().max_compute_invocations_per_workgroup >= 64;
+        if writable && computes { WriteMethod::Compute } else { WriteMethod::Draw }
     }
 }
 
-impl Way {
-    /// What a texture must allow to be written so.
+impl WriteMethod {
+    /// The usage that a texture needs to be written so.
     pub(crate) fn usage(self) -> TextureUsages {
         match self {
             Self::Compute => TextureUsages::STORAGE_BINDING,

@@ -1,14 +1,16 @@
 //! The bare numbers of a form as the shaders' uniform buffers hold them.
 //!
-//! Word by word as the structs `OnelightPlain`, `OnelightStructured` and `OnelightDirect` in the WGSL files: 32-bit floats and
-//! integers, matrices as three columns of four words, the fourth unused.
+//! Member by member as the structs `OnelightPlain`, `OnelightStructured` and `OnelightDirect` in the WGSL files: 32-bit floats
+//! and integers, matrices as three columns of four words, the fourth unused. `layout.rs` compares names, offsets and sizes with
+//! those that naga finds in the WGSL.
 
 use onelight_lut::{
-    Decode, DirectForm, DirectPrint, ExponentialTerm, Interpolation, Lut1d, Mix, PlainLut, PowerCoding, Rows,
-    ShaperKind, StructuredLut,
+    CodingStandard, Decode, DirectForm, DirectPrint, ExponentialTerm, Interpolation, Lut1d, Mix, PlainLut, PowerCoding,
+    Rows, ShaperKind, StructuredLut,
 };
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
+use crate::target::TargetCoding;
 
 /// The most terms that each sum of a direct form may have: enough for every 5 nm from 400 to 1000 nm.
 pub const MAX_TERMS: usize = 128;
@@ -19,37 +21,46 @@ pub(crate) const SECOND_ROW: u32 = 3;
 /// The input matrix that a shader may skip.
 const IDENTITY: Rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// Adds nothing to a sum.
+/// A term that adds nothing to a sum.
 const NO_TERM: ExponentialTerm = ExponentialTerm { rate: [0.0; 3], weight: [0.0; 3] };
 
-/// What the target does to values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum After {
-    /// They are stored.
-    Stored,
-    /// They are encoded by the sRGB curve.
-    Encoded,
+/// The words of a uniform buffer, written in the order of a WGSL struct's members.
+#[derive(Debug, Default)]
+pub(crate) struct UniformWords {
+    words: Vec<u32>,
+    /// Name and byte offset of each member, those of structs within it after their own.
+    #[cfg(test)]
+    members: Vec<(&'static str, usize)>,
 }
 
-/// Words of a uniform buffer.
-#[derive(Debug, Default)]
-pub(crate) struct Words(Vec<u32>);
+impl UniformWords {
+    /// Begins the member of that name in the WGSL struct.
+    #[cfg(test)]
+    fn member(&mut self, name: &'static str) -> &mut Self {
+        self.members.push((name, 4 * self.words.len()));
+        self
+    }
 
-impl Words {
+    /// Begins the member of that name in the WGSL struct.
+    #[cfg(not(test))]
+    fn member(&mut self, _: &'static str) -> &mut Self {
+        self
+    }
+
     fn float(&mut self, v: f32) {
-        self.0.push(v.to_bits());
+        self.words.push(v.to_bits());
     }
 
     fn int(&mut self, v: usize) {
-        self.0.push(u32::try_from(v).unwrap_or(u32::MAX));
+        self.words.push(u32::try_from(v).unwrap_or(u32::MAX));
     }
 
     fn flag(&mut self, on: bool) {
-        self.0.push(u32::from(on));
+        self.words.push(u32::from(on));
     }
 
     fn floats(&mut self, v: impl IntoIterator<Item = f32>) {
-        self.0.extend(v.into_iter().map(f32::to_bits));
+        self.words.extend(v.into_iter().map(f32::to_bits));
     }
 
     fn rows(&mut self, rows: &Rows) {
@@ -67,107 +78,129 @@ impl Words {
         let scale = scale.map(|v| v as f32);
         finite("scale along a curve", &scale)?;
         finite("where a curve begins, over its length", &offset)?;
-        self.floats(scale);
-        self.float(last as f32);
-        self.floats(offset);
-        self.0.push(row);
+        self.member("scale").floats(scale);
+        self.member("last").float(last as f32);
+        self.member("offset").floats(offset);
+        self.member("row").row(row);
         Ok(())
+    }
+
+    fn row(&mut self, row: u32) {
+        self.words.push(row);
     }
 
     fn coding(&mut self, coding: &PowerCoding) {
         // Linear light is a foot without end.
-        let end = if coding.exponent() == 1.0 { f32::MAX } else { coding.end() as f32 };
-        self.floats([(1.0 / coding.exponent()) as f32, coding.offset() as f32, coding.slope() as f32, end]);
+        let linear = coding.standard() == CodingStandard::Linear;
+        self.member("inverse_exponent").float((1.0 / coding.exponent()) as f32);
+        self.member("offset").float(coding.offset() as f32);
+        self.member("slope").float(coding.slope() as f32);
+        self.member("end").float(if linear { f32::MAX } else { coding.end() as f32 });
     }
 
     /// A sum in groups of four terms, and weights of 0 after its last.
     fn terms(&mut self, terms: &[ExponentialTerm]) {
+        const RATES: [&str; 3] = ["rate_red", "rate_green", "rate_blue"];
+        const WEIGHTS: [&str; 3] = ["weight_red", "weight_green", "weight_blue"];
         for first in (0..MAX_TERMS).step_by(4) {
             let group: [ExponentialTerm; 4] = std::array::from_fn(|i| terms.get(first + i).copied().unwrap_or(NO_TERM));
-            (0..3).for_each(|c| self.floats(group.map(|term| term.rate[c])));
-            (0..3).for_each(|c| self.floats(group.map(|term| term.weight[c])));
+            (0..3).for_each(|c| self.member(RATES[c]).floats(group.map(|term| term.rate[c])));
+            (0..3).for_each(|c| self.member(WEIGHTS[c]).floats(group.map(|term| term.weight[c])));
         }
+    }
+
+    /// Fills the last 16 bytes, which uniform buffers come in.
+    fn pad(&mut self) {
+        self.words.resize(self.words.len().next_multiple_of(4), 0);
+    }
+
+    /// The names and byte offsets of what was written.
+    #[cfg(test)]
+    pub(crate) fn members(&self) -> &[(&'static str, usize)] {
+        &self.members
     }
 
     pub(crate) fn bytes(&self) -> Vec<u8> {
-        self.0.iter().flat_map(|word| word.to_ne_bytes()).collect()
+        self.words.iter().flat_map(|word| word.to_ne_bytes()).collect()
     }
 }
 
-pub(crate) fn plain(lut: &PlainLut, after: After) -> Result<Words, Error> {
-    let mut words = Words::default();
+pub(crate) fn plain(lut: &PlainLut, target: TargetCoding) -> Result<UniformWords, Error> {
+    let mut words = UniformWords::default();
     let ShaperKind::Log2Offset { offset, max: brightest } = lut.shaper().kind() else {
-        return Err(Kind::Shaper.into());
+        return Err(ErrorKind::Shaper.into());
     };
     let per_stop = std::f64::consts::LN_2 / (brightest / offset).ln_1p();
-    words.floats([brightest as f32, (1.0 / offset) as f32, per_stop as f32]);
-    words.float((lut.table().size() - 1) as f32);
-    words.flag(lut.interpolation() == Interpolation::Trilinear);
-    words.flag(after == After::Encoded);
-    words.floats([0.0; 2]);
+    words.member("brightest").float(brightest as f32);
+    words.member("per_offset").float((1.0 / offset) as f32);
+    words.member("per_stop").float(per_stop as f32);
+    words.member("last").float((lut.table().size() - 1) as f32);
+    words.member("trilinear").flag(lut.interpolation() == Interpolation::Trilinear);
+    words.member("coded").flag(target == TargetCoding::Srgb);
+    words.pad();
     Ok(words)
 }
 
-pub(crate) fn structured(lut: &StructuredLut, after: After) -> Result<Words, Error> {
+pub(crate) fn structured(lut: &StructuredLut, target: TargetCoding) -> Result<UniformWords, Error> {
     let parts = lut.parts();
-    let mut words = Words::default();
-    words.rows(&parts.input);
-    words.rows(&parts.exposure);
-    words.rows(parts.mix.as_ref().map_or(&[[0.0; 3]; 3], |mix| &mix.matrix));
+    let mut words = UniformWords::default();
+    words.member("input").rows(&parts.input);
+    words.member("exposure").rows(&parts.exposure);
+    words.member("mix_matrix").rows(parts.mix.as_ref().map_or(&[[0.0; 3]; 3], |mix| &mix.matrix));
     let (decode, coding, coded) = match &parts.decode {
-        Decode::Coded => (&[[0.0; 3]; 3], PowerCoding::LINEAR, after == After::Encoded),
+        Decode::Coded => (&[[0.0; 3]; 3], PowerCoding::LINEAR, target == TargetCoding::Srgb),
         Decode::Density { matrix, coding } => {
-            let (coding, coded) = coding_before(coding, after);
+            let (coding, coded) = coding_in_shader(coding, target);
             (matrix, coding, coded)
         }
     };
-    words.rows(decode);
-    words.floats(parts.mix.as_ref().map_or([0.0; 3], |mix| mix.offset));
-    words.float((parts.table.size() - 1) as f32);
-    words.curves(&parts.curves, 0)?;
-    words.curves(parts.mix.as_ref().map_or(&parts.curves, |Mix { curves, .. }| curves), SECOND_ROW)?;
-    words.coding(&coding);
-    words.flag(parts.mix.is_some());
-    words.flag(matches!(parts.decode, Decode::Density { .. }));
-    words.flag(parts.interpolation == Interpolation::Trilinear);
-    words.flag(coded);
-    words.flag(parts.input != IDENTITY);
-    words.floats([0.0; 3]);
+    words.member("decode").rows(decode);
+    words.member("mix_offset").floats(parts.mix.as_ref().map_or([0.0; 3], |mix| mix.offset));
+    words.member("last").float((parts.table.size() - 1) as f32);
+    words.member("curves").curves(&parts.curves, 0)?;
+    let mix_curves = parts.mix.as_ref().map_or(&parts.curves, |Mix { curves, .. }| curves);
+    words.member("mix_curves").curves(mix_curves, SECOND_ROW)?;
+    words.member("coding").coding(&coding);
+    words.member("mixes").flag(parts.mix.is_some());
+    words.member("densities").flag(matches!(parts.decode, Decode::Density { .. }));
+    words.member("trilinear").flag(parts.interpolation == Interpolation::Trilinear);
+    words.member("coded").flag(coded);
+    words.member("converts").flag(parts.input != IDENTITY);
+    words.pad();
     Ok(words)
 }
 
-pub(crate) fn direct(form: &DirectForm, after: After) -> Result<Words, Error> {
+pub(crate) fn direct(form: &DirectForm, target: TargetCoding) -> Result<UniformWords, Error> {
     let parts = form.parts();
     let print = parts.print.as_ref().map_or(&[][..], |print| print.exposure.terms());
     let projection = parts.projection.terms();
     let found = print.len().max(projection.len());
     if found > MAX_TERMS {
-        return Err(Kind::Terms { found, max: MAX_TERMS }.into());
+        return Err(ErrorKind::Terms { found, max: MAX_TERMS }.into());
     }
-    let (coding, coded) = coding_before(&parts.coding, after);
-    let mut words = Words::default();
-    words.rows(&parts.input);
-    words.rows(&parts.exposure);
-    words.curves(&parts.curves, 0)?;
-    words.curves(parts.print.as_ref().map_or(&parts.curves, |DirectPrint { curves, .. }| curves), SECOND_ROW)?;
-    words.coding(&coding);
-    words.int(print.len().div_ceil(4));
-    words.int(projection.len().div_ceil(4));
-    words.flag(coded);
-    words.flag(parts.input != IDENTITY);
-    words.terms(print);
-    words.terms(projection);
+    let (coding, coded) = coding_in_shader(&parts.coding, target);
+    let mut words = UniformWords::default();
+    words.member("input").rows(&parts.input);
+    words.member("exposure").rows(&parts.exposure);
+    words.member("curves").curves(&parts.curves, 0)?;
+    let print_curves = parts.print.as_ref().map_or(&parts.curves, |DirectPrint { curves, .. }| curves);
+    words.member("print_curves").curves(print_curves, SECOND_ROW)?;
+    words.member("coding").coding(&coding);
+    words.member("print_count").int(print.len().div_ceil(4));
+    words.member("projection_count").int(projection.len().div_ceil(4));
+    words.member("coded").flag(coded);
+    words.member("converts").flag(parts.input != IDENTITY);
+    words.member("print").terms(print);
+    words.member("projection").terms(projection);
     Ok(words)
 }
 
 /// The coding that a shader does, and whether what it yields is still to be decoded: a target that encodes wants linear light.
-fn coding_before(coding: &PowerCoding, after: After) -> (PowerCoding, bool) {
-    let linear = coding.exponent() == 1.0;
-    let srgb = coding.exponent() == 2.4 && coding.offset() == 0.055;
-    match after {
-        After::Stored => (*coding, false),
-        After::Encoded if linear || srgb => (PowerCoding::LINEAR, false),
-        After::Encoded => (*coding, true),
+fn coding_in_shader(coding: &PowerCoding, target: TargetCoding) -> (PowerCoding, bool) {
+    match (target, coding.standard()) {
+        (TargetCoding::Stored, _) => (*coding, false),
+        (TargetCoding::Srgb, CodingStandard::Linear | CodingStandard::Srgb) => (PowerCoding::LINEAR, false),
+        (TargetCoding::Srgb, CodingStandard::Other) => (*coding, true),
     }
 }
 
@@ -188,7 +221,7 @@ pub(crate) fn points(curves: &Lut1d) -> Result<Vec<u8>, Error> {
 
 fn finite(what: &'static str, values: &[f32]) -> Result<(), Error> {
     match values.iter().find(|v| !v.is_finite()) {
-        Some(&found) => Err(Kind::NotFinite { what, found }.into()),
+        Some(&found) => Err(ErrorKind::NotFinite { what, found }.into()),
         None => Ok(()),
     }
 }

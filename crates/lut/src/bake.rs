@@ -39,7 +39,7 @@ pub fn bake(
 ///
 /// # Errors
 ///
-/// As [`bake`].
+/// The same as those of [`bake()`].
 pub fn bake_coordinates(
     size: usize,
     f: impl Fn([f64; 3]) -> [f64; 3] + Sync,
@@ -113,7 +113,7 @@ mod tests {
         let form = PlainLut::new(shaper(), bake(5, &shaper(), look, |_| {}).unwrap(), Interpolation::Tetrahedral);
         let at = |t: [f64; 3]| [4.0 * t[0], t[1], 0.5 * t[2]];
         let table = bake_form(6, at, &form).unwrap();
-        for (index, entry) in table.entries().iter().enumerate() {
+        for (index, entry) in table.entries().enumerate() {
             let coordinates = node_of(index, 6).map(|i| i as f64 / 5.0);
             let pixel = form.apply(at(coordinates).map(|v| v as f32));
             // Whole rows may be rounded otherwise than single pixels.

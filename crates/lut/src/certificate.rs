@@ -1,11 +1,12 @@
 mod ascent;
 mod bands;
 mod colour_set;
+mod compared;
 mod folds;
 mod hue_steps;
-mod law;
 mod neutral_axis;
 mod samples;
+mod sampling_law;
 mod scene_coordinates;
 #[cfg(test)]
 mod tests;
@@ -13,15 +14,13 @@ mod verdict;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use serde::Serialize;
-
 pub use self::bands::Band;
 pub use self::colour_set::{ColourSet, SetDeviation};
 pub use self::folds::Folds;
 pub use self::hue_steps::HueSteps;
-pub use self::law::{Law, Search};
 pub use self::neutral_axis::{Fall, NeutralAxis};
 pub use self::samples::Samples;
+pub use self::sampling_law::{SamplingLaw, Search};
 use crate::deviation::Deviation;
 use crate::error::Error;
 
@@ -45,11 +44,12 @@ pub struct Maps<R, C, D, L> {
 /// Differences are in the unit of [`Maps::difference`], colours scene-linear RGB, stops relative to mid grey
 /// ([`SceneSampler::MID_GREY`](crate::SceneSampler::MID_GREY)). The names of fields are those of the
 /// serialised form.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Certificate {
     /// Which colours were looked at.
-    pub law: Law,
+    pub law: SamplingLaw,
     /// Whether the worst of them were followed uphill.
     pub search: Search,
     /// The mean difference of the worst band.
@@ -62,7 +62,7 @@ pub struct Certificate {
     pub overall: Deviation,
     /// The same by exposure, darkest first. A band without a colour is left out.
     pub bands: Vec<Band>,
-    /// Greys.
+    /// The greys from the darkest to the brightest stop of the law.
     pub neutral_axis: NeutralAxis,
     /// The caller's own colours over exposure, in the order given.
     pub colour_sets: Vec<SetDeviation>,
@@ -81,10 +81,10 @@ pub struct Certificate {
 /// order; [`Samples::evaluations`] bounds it.
 ///
 /// ```
-/// use onelight_lut::{ColourSet, Law, Maps, Samples, Search, certify};
+/// use onelight_lut::{ColourSet, SamplingLaw, Maps, Samples, Search, certify};
 ///
 /// let film = |rgb: [f64; 3]| rgb.map(|u| u / (u + 0.18));
-/// let law = Law { count: 1 << 10, ..Law::default() };
+/// let law = SamplingLaw { count: 1 << 10, ..SamplingLaw::default() };
 /// let skin = ColourSet::new("skin", [("light", [0.56, 0.39, 0.31]), ("dark", [0.16, 0.08, 0.06])])?;
 /// let samples = Samples::new(&law, &[skin], film, |_done| {})?;
 ///
@@ -123,13 +123,13 @@ where
 
     let drawn = samples.drawn(&candidate);
     let differences = drawn.differences(&maps.difference);
-    let overall = Deviation::of(drawn.places, differences.clone())?;
-    let bands = bands::bands(law, drawn.places, &differences)?;
+    let overall = Deviation::of(drawn.colours, differences.clone())?;
+    let bands = bands::bands(law, drawn.colours, &differences)?;
     let (max_found, max_found_at) = match search {
         Search::SamplesOnly => (overall.max, overall.worst),
         Search::Ascent => {
             let measure = |rgb| (maps.difference)(&(maps.reference)(rgb), &(maps.candidate)(rgb));
-            ascent::largest(law, drawn.places, &differences, measure, &count_more)?
+            ascent::largest(law, drawn.colours, &differences, measure, &count_more)?
         }
     };
     Ok(Certificate {

@@ -1,13 +1,24 @@
 use crate::error::{Error, Kind};
-use crate::kernel::log2_exp2::{exp2, log2};
+use crate::number::Number;
 
 /// The transfer curve of an output as two numbers: a power with a straight foot, odd about 0.
 ///
 /// `encode(v) = (1 + offset) v^(1 / exponent) - offset` above the point where a line through the origin touches it, and that
 /// line below: the "moncurve" of the Common LUT Format \[S2014-006\]. sRGB is (2.4, 0.055), a pure power has offset 0, and
 /// linear light is (1, 0).
+///
+/// ```
+/// use onelight_lut::{CodingStandard, PowerCoding};
+///
+/// let srgb = PowerCoding::new(2.4, 0.055)?;
+/// assert_eq!(srgb.standard(), CodingStandard::Srgb);
+/// assert!((srgb.encode(0.18) - 0.4614).abs() < 1e-4);
+/// assert!((srgb.decode(srgb.encode(-0.5)) + 0.5).abs() < 1e-12);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PowerCoding {
+    standard: CodingStandard,
     exponent: f64,
     offset: f64,
     /// Slope of the line, and where it ends in linear light.
@@ -15,9 +26,24 @@ pub struct PowerCoding {
     end: f64,
 }
 
+/// Whether the hardware can do the work of a [`PowerCoding`]: a frame buffer with an sRGB format encodes linear light itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum CodingStandard {
+    /// Linear light is stored as it is: exponent 1.
+    Linear,
+    /// The curve of IEC 61966-2-1: exponent 2.4, offset 0.055.
+    Srgb,
+    /// Any other exponent and offset, such as a pure power of 2.4.
+    Other,
+}
+
+/// Exponent and offset of sRGB.
+const SRGB: (f64, f64) = (2.4, 0.055);
+
 impl PowerCoding {
-    /// No coding at all.
-    pub const LINEAR: Self = Self { exponent: 1.0, offset: 0.0, slope: 1.0, end: 0.0 };
+    /// The coding that leaves linear light as it is.
+    pub const LINEAR: Self =
+        Self { standard: CodingStandard::Linear, exponent: 1.0, offset: 0.0, slope: 1.0, end: 0.0 };
 
     /// A curve from its exponent and offset.
     ///
@@ -31,29 +57,35 @@ impl PowerCoding {
         if !(0.0..=0.9).contains(&offset) {
             return refuse("offset of a coding", offset, "a number from 0 to 0.9");
         }
-        if offset == 0.0 {
-            return Ok(Self { exponent, offset, ..Self::LINEAR });
-        }
-        if exponent == 1.0 {
-            return refuse("offset of a coding with exponent 1", offset, "0");
+        match (exponent == 1.0, offset == 0.0) {
+            (true, true) => return Ok(Self::LINEAR),
+            (true, false) => return refuse("offset of a coding with exponent 1", offset, "0"),
+            (false, true) => return Ok(Self { standard: CodingStandard::Other, exponent, offset, ..Self::LINEAR }),
+            (false, false) => (),
         }
         // The line through the origin that touches the power.
         let coded_end = offset / (exponent - 1.0);
         let end = ((coded_end + offset) / (1.0 + offset)).powf(exponent);
-        Ok(Self { exponent, offset, slope: coded_end / end, end })
+        let standard = if (exponent, offset) == SRGB { CodingStandard::Srgb } else { CodingStandard::Other };
+        Ok(Self { standard, exponent, offset, slope: coded_end / end, end })
     }
 
-    /// The exponent, such as 2.4.
+    /// Which published curve it is, decided once by [`PowerCoding::new`].
+    pub fn standard(&self) -> CodingStandard {
+        self.standard
+    }
+
+    /// The exponent of the power, from 1 to 10, such as 2.4.
     pub fn exponent(&self) -> f64 {
         self.exponent
     }
 
-    /// The offset, such as 0.055.
+    /// The offset of the power, from 0 to 0.9, such as 0.055.
     pub fn offset(&self) -> f64 {
         self.offset
     }
 
-    /// Slope of the straight foot.
+    /// The slope of the straight foot: coded for linear.
     pub fn slope(&self) -> f64 {
         self.slope
     }
@@ -63,18 +95,12 @@ impl PowerCoding {
         self.end
     }
 
-    /// Linear to coded.
+    /// From linear light, 1 at white, to its code; odd about 0.
     pub fn encode(&self, linear: f64) -> f64 {
-        let v = linear.abs();
-        let coded = if v <= self.end {
-            self.slope * v
-        } else {
-            (1.0 + self.offset) * v.powf(1.0 / self.exponent) - self.offset
-        };
-        coded.copysign(linear)
+        self.encode_in(linear)
     }
 
-    /// Coded to linear.
+    /// From a code back to linear light: undoes [`PowerCoding::encode`].
     pub fn decode(&self, coded: f64) -> f64 {
         let v = coded.abs();
         let linear = if v <= self.slope * self.end {
@@ -88,46 +114,52 @@ impl PowerCoding {
     /// [`PowerCoding::encode`] for pixel loops, within 1e-6 of it.
     #[inline]
     pub fn encode_f32(&self, linear: f32) -> f32 {
+        self.encode_in(linear)
+    }
+
+    /// The one definition of [`PowerCoding::encode`], for float32 and float64.
+    #[inline]
+    pub(crate) fn encode_in<N: Number>(&self, linear: N) -> N {
         self.numbers().encode(linear)
     }
 
-    /// The curve in float32.
+    /// The curve's numbers, each rounded once.
     #[inline]
-    pub(crate) fn numbers(&self) -> PowerNumbers {
+    pub(crate) fn numbers<N: Number>(&self) -> PowerNumbers<N> {
         PowerNumbers {
-            power: (1.0 / self.exponent) as f32,
-            scale: (1.0 + self.offset) as f32,
-            offset: self.offset as f32,
-            slope: self.slope as f32,
-            end: self.end as f32,
+            power: N::rounded(1.0 / self.exponent),
+            scale: N::rounded(1.0 + self.offset),
+            offset: N::rounded(self.offset),
+            slope: N::rounded(self.slope),
+            end: N::rounded(self.end),
         }
     }
 }
 
-/// A [`PowerCoding`] as pixel loops have it: `scale v^power - offset` above `end`, `slope v` below.
+/// A [`PowerCoding`] as it is computed: `scale v^power - offset` above `end`, `slope v` below.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct PowerNumbers {
-    pub(crate) power: f32,
-    pub(crate) scale: f32,
-    pub(crate) offset: f32,
-    pub(crate) slope: f32,
-    pub(crate) end: f32,
+pub(crate) struct PowerNumbers<N> {
+    pub(crate) power: N,
+    pub(crate) scale: N,
+    pub(crate) offset: N,
+    pub(crate) slope: N,
+    pub(crate) end: N,
 }
 
-impl PowerNumbers {
+impl<N: Number> PowerNumbers<N> {
     /// Whether there is no coding.
     #[inline]
     pub(crate) fn is_linear(&self) -> bool {
-        self.power == 1.0
+        self.power == N::ONE
     }
 
     #[inline]
-    pub(crate) fn encode(&self, linear: f32) -> f32 {
+    fn encode(&self, linear: N) -> N {
         if self.is_linear() {
             return linear;
         }
         let v = linear.abs();
-        let coded = if v <= self.end { self.slope * v } else { self.scale * exp2(log2(v) * self.power) - self.offset };
+        let coded = if v <= self.end { self.slope * v } else { self.scale * v.pow(self.power) - self.offset };
         coded.copysign(linear)
     }
 }
@@ -160,5 +192,19 @@ mod tests {
         assert!(PowerCoding::new(0.5, 0.0).is_err());
         assert!(PowerCoding::new(2.4, -0.1).is_err());
         assert!(PowerCoding::new(1.0, 0.1).is_err());
+    }
+
+    #[test]
+    fn published_curves_are_known() {
+        for (exponent, offset, expected) in [
+            (1.0, 0.0, CodingStandard::Linear),
+            (2.4, 0.055, CodingStandard::Srgb),
+            (2.4, 0.0, CodingStandard::Other),
+            (2.2, 0.055, CodingStandard::Other),
+            (2.6, 0.1, CodingStandard::Other),
+        ] {
+            assert_eq!(PowerCoding::new(exponent, offset).unwrap().standard(), expected, "{exponent} {offset}");
+        }
+        assert_eq!(PowerCoding::new(1.0, 0.0).unwrap(), PowerCoding::LINEAR);
     }
 }

@@ -1,22 +1,21 @@
-use rayon::prelude::*;
-use serde::Serialize;
-
 use crate::error::{Error, Kind};
+use rayon::prelude::*;
 
 /// How far one map lies from another over a set of samples, in the unit of the difference that was given.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Deviation {
-    /// The number of samples.
+    /// The number of samples that were compared.
     pub count: usize,
-    /// The arithmetic mean.
+    /// The arithmetic mean of the differences.
     pub mean: f64,
     /// The 95th percentile by nearest rank: the smallest difference that at least 95 % of the samples do not
     /// exceed.
     pub p95: f64,
     /// The 99th percentile by nearest rank.
     pub p99: f64,
-    /// The largest difference.
+    /// The largest difference, that of `worst`.
     pub max: f64,
     /// The sample with the largest difference; the first of them, if several share it.
     pub worst: [f64; 3],
@@ -56,34 +55,51 @@ pub fn deviation(
 impl Deviation {
     /// Sums up differences that were measured elsewhere, one for each sample, in the same order.
     ///
+    /// ```
+    /// # use onelight_lut::Deviation;
+    /// let found = Deviation::of(&[[0.1; 3], [0.2; 3]], vec![1.0, 3.0])?;
+    /// assert_eq!((found.mean, found.worst), (2.0, [0.2; 3]));
+    /// assert!(Deviation::of(&[[0.1; 3], [0.2; 3]], vec![1.0]).is_err());
+    /// # Ok::<(), onelight_lut::Error>(())
+    /// ```
+    ///
     /// # Errors
     ///
-    /// If there are no samples, or a difference is not finite; the error names the first such sample.
-    pub fn of(samples: &[[f64; 3]], mut differences: Vec<f64>) -> Result<Self, Error> {
+    /// If there are no samples, not as many differences, or a difference is not finite; the error names the first such sample.
+    pub fn of(samples: &[[f64; 3]], differences: Vec<f64>) -> Result<Self, Error> {
+        Self::with_worst_index(samples, differences).map(|(deviation, _)| deviation)
+    }
+
+    /// [`Deviation::of`], and which sample is the worst.
+    pub(crate) fn with_worst_index(samples: &[[f64; 3]], mut differences: Vec<f64>) -> Result<(Self, usize), Error> {
+        if samples.len() != differences.len() {
+            return Err(Kind::DifferenceCount { found: differences.len(), expected: samples.len() }.into());
+        }
         let mut sum = 0.0;
-        let mut largest: Option<(f64, [f64; 3])> = None;
+        let mut largest: Option<(f64, usize)> = None;
         for (index, (&found, &sample)) in differences.iter().zip(samples).enumerate() {
             if !found.is_finite() {
                 return Err(Kind::Difference { index, sample, found }.into());
             }
             sum += found;
             if largest.is_none_or(|(max, _)| found > max) {
-                largest = Some((found, sample));
+                largest = Some((found, index));
             }
         }
-        let Some((max, worst)) = largest else {
+        let Some((max, worst_index)) = largest else {
             return Err(Kind::NoSamples.into());
         };
         differences.par_sort_unstable_by(f64::total_cmp);
         let count = differences.len();
-        Ok(Self {
+        let deviation = Self {
             count,
             mean: sum / count as f64,
             p95: differences[nearest_rank(count, 95)],
             p99: differences[nearest_rank(count, 99)],
             max,
-            worst,
-        })
+            worst: samples[worst_index],
+        };
+        Ok((deviation, worst_index))
     }
 }
 

@@ -1,6 +1,14 @@
 use crate::error::{Error, Kind};
+use crate::number::Number;
 
 /// The box of inputs that a table covers: per channel, the input of its first and of its last entry.
+///
+/// ```
+/// use onelight_lut::Domain;
+/// assert_eq!(Domain::common(-1.0, 3.0)?.as_common(), Some([-1.0, 3.0]));
+/// assert!(Domain::new([0.0; 3], [1.0, 0.0, 1.0]).is_err());
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Domain {
     min: [f32; 3],
@@ -28,7 +36,7 @@ impl Domain {
     ///
     /// # Errors
     ///
-    /// As [`Domain::new`].
+    /// The same as those of [`Domain::new`].
     pub fn common(min: f32, max: f32) -> Result<Self, Error> {
         Self::new([min; 3], [max; 3])
     }
@@ -49,9 +57,27 @@ impl Domain {
         (self.min == [min; 3] && self.max == [max; 3]).then_some([min, max])
     }
 
-    /// Moves the domain onto `[0, 1]`; inputs outside it end up outside.
-    pub(crate) fn normalise(&self, rgb: [f32; 3]) -> [f32; 3] {
-        std::array::from_fn(|c| (rgb[c] - self.min[c]) / (self.max[c] - self.min[c]))
+    /// Where each channel of a colour lies in the domain: 0 at its minimum, 1 at its maximum.
+    ///
+    /// Inputs outside the domain give numbers outside 0 to 1, NaN gives NaN.
+    ///
+    /// ```
+    /// let domain = onelight_lut::Domain::common(-1.0, 3.0)?;
+    /// assert_eq!(domain.normalise([-1.0, 0.0, 5.0]), [0.0, 0.25, 1.5]);
+    /// # Ok::<(), onelight_lut::Error>(())
+    /// ```
+    #[inline]
+    pub fn normalise(&self, rgb: [f32; 3]) -> [f32; 3] {
+        self.normalised(rgb)
+    }
+
+    /// The one definition of [`Domain::normalise`], for float32 and float64.
+    #[inline]
+    pub(crate) fn normalised<N: Number>(&self, rgb: [N; 3]) -> [N; 3] {
+        std::array::from_fn(|c| {
+            let (min, max) = (N::of(self.min[c]), N::of(self.max[c]));
+            (rgb[c] - min) / (max - min)
+        })
     }
 }
 

@@ -4,12 +4,12 @@ use crate::error::{Error, Kind};
 use crate::interpolate::{Interpolation, Weights, weights};
 use crate::lut3d::Lut3d;
 
-/// A place in a table and the value it should read there.
+/// A place in a table and the value it should read there: what [`fit`] takes, with an example there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FitSample {
-    /// Coordinates, 0 to 1.
+    /// Where the table is read: coordinates from 0 to 1.
     pub coordinates: [f32; 3],
-    /// The value wanted.
+    /// The value that the table should read there.
     pub target: [f32; 3],
 }
 
@@ -25,7 +25,7 @@ pub struct FitSettings {
 }
 
 impl Default for FitSettings {
-    /// What served all films best: p99 and the largest difference fall with the rounds, the mean rises by a tenth.
+    /// What serves all films best: p99 and the largest difference fall with the rounds, the mean rises by a tenth.
     fn default() -> Self {
         Self { hold: 0.02, rounds: 4, steps: 15 }
     }
@@ -61,7 +61,7 @@ const SHARE: f64 = 0.3;
 /// ```
 ///
 /// # Errors
-/// If there are no samples, or a number is not finite.
+/// If there are no samples, the hold is not a number from 0 to 1e12, or an entry of the result is not finite.
 pub fn fit(
     start: &Lut3d,
     interpolation: Interpolation,
@@ -72,9 +72,13 @@ pub fn fit(
     if samples.is_empty() {
         return Err(Kind::NoSamples.into());
     }
+    if !(0.0..=1e12).contains(&settings.hold) {
+        let (found, expected) = (settings.hold, "a number from 0 to 1e12");
+        return Err(Kind::Parameter { what: "hold of a fit", found, expected }.into());
+    }
     let system = System::new(start, interpolation, samples, settings.hold);
     let mut importance = vec![1.0; samples.len()];
-    let mut entries: Vec<[f64; 3]> = start.entries().iter().map(|e| e.map(f64::from)).collect();
+    let mut entries: Vec<[f64; 3]> = start.entries().map(|e| e.map(f64::from)).collect();
     for round in 0..settings.rounds.max(1) {
         system.solve(&mut entries, &importance, settings.steps);
         if round + 1 < settings.rounds {
@@ -100,7 +104,7 @@ fn weigh(importance: &mut [f64], differences: &[f64]) {
 
 /// The normal equations, never written out: A' W A + hold.
 struct System<'a> {
-    rows: Vec<Weights>,
+    rows: Vec<Weights<f32>>,
     /// For each entry, the samples it takes part in and its weight there: `columns[first[e]..first[e + 1]]`.
     columns: Vec<(u32, f32)>,
     first: Vec<usize>,
@@ -111,10 +115,11 @@ struct System<'a> {
 
 impl<'a> System<'a> {
     fn new(start: &Lut3d, how: Interpolation, samples: &'a [FitSample], hold: f64) -> Self {
-        let rows: Vec<Weights> = samples.par_iter().map(|s| weights(s.coordinates, start.size(), how)).collect();
+        let rows: Vec<Weights<f32>> = samples.par_iter().map(|s| weights(s.coordinates, start.size(), how)).collect();
         let mut first = vec![0; start.entries().len() + 1];
-        let used =
-            |row: &Weights| row.map(|(entry, weight)| (entry as usize, weight)).into_iter().filter(|(_, w)| *w != 0.0);
+        let used = |row: &Weights<f32>| {
+            row.map(|(entry, weight)| (entry as usize, weight)).into_iter().filter(|(_, w)| *w != 0.0)
+        };
         for (entry, _) in rows.iter().flat_map(used) {
             first[entry + 1] += 1;
         }
@@ -129,13 +134,13 @@ impl<'a> System<'a> {
                 next[entry] += 1;
             }
         }
-        let start = start.entries().iter().map(|e| e.map(f64::from)).collect();
+        let start = start.entries().map(|e| e.map(f64::from)).collect();
         Self { rows, columns, first, samples, start, hold }
     }
 
     /// What the entries read at the samples: A x.
     fn read(&self, entries: &[[f64; 3]]) -> Vec<[f64; 3]> {
-        let value = |row: &Weights| {
+        let value = |row: &Weights<f32>| {
             let mut sum = [0.0; 3];
             for &(entry, weight) in row {
                 add(&mut sum, f64::from(weight), &entries[entry as usize]);
@@ -157,30 +162,31 @@ impl<'a> System<'a> {
         entries.par_iter().enumerate().map(value).collect()
     }
 
-    /// Conjugate gradients from `entries`, the three channels side by side.
+    /// Conjugate gradients from `entries`, the three channels side by side. Norms are squared.
     fn solve(&self, entries: &mut [[f64; 3]], importance: &[f64], steps: usize) {
         let targets: Vec<[f64; 3]> = self.samples.iter().map(|s| s.target.map(f64::from)).collect();
         let wanted = self.gather(&targets, importance, &self.start);
         let found = self.gather(&self.read(entries), importance, entries);
-        let mut rest: Vec<[f64; 3]> =
+        let mut residual: Vec<[f64; 3]> =
             wanted.iter().zip(&found).map(|(w, f)| std::array::from_fn(|c| w[c] - f[c])).collect();
-        let mut way = rest.clone();
-        let mut length = dot(&rest, &rest);
+        let mut direction = residual.clone();
+        let mut residual_norm = dot(&residual, &residual);
         for _ in 0..steps {
-            let bent = self.gather(&self.read(&way), importance, &way);
-            let step = ratio(length, dot(&way, &bent));
-            for (((entry, rest), way), bent) in entries.iter_mut().zip(&mut rest).zip(&way).zip(&bent) {
+            let a_direction = self.gather(&self.read(&direction), importance, &direction);
+            let alpha = ratio(residual_norm, dot(&direction, &a_direction));
+            let updates = entries.iter_mut().zip(&mut residual).zip(direction.iter().zip(&a_direction));
+            for ((entry, residual), (direction, a_direction)) in updates {
                 for c in 0..3 {
-                    entry[c] += step[c] * way[c];
-                    rest[c] -= step[c] * bent[c];
+                    entry[c] += alpha[c] * direction[c];
+                    residual[c] -= alpha[c] * a_direction[c];
                 }
             }
-            let left = dot(&rest, &rest);
-            let turn = ratio(left, length);
-            for (way, rest) in way.iter_mut().zip(&rest) {
-                *way = std::array::from_fn(|c| rest[c] + turn[c] * way[c]);
+            let next_norm = dot(&residual, &residual);
+            let beta = ratio(next_norm, residual_norm);
+            for (direction, residual) in direction.iter_mut().zip(&residual) {
+                *direction = std::array::from_fn(|c| residual[c] + beta[c] * direction[c]);
             }
-            length = left;
+            residual_norm = next_norm;
         }
     }
 }
@@ -231,8 +237,9 @@ mod tests {
             for sample in samples(2000) {
                 let read = lut.apply(sample.coordinates, how);
                 let mut mixed = [0.0; 3];
+                let entries: Vec<_> = lut.entries().collect();
                 for (entry, weight) in weights(sample.coordinates, 5, how) {
-                    add(&mut mixed, f64::from(weight), &lut.entries()[entry as usize].map(f64::from));
+                    add(&mut mixed, f64::from(weight), &entries[entry as usize].map(f64::from));
                 }
                 assert!(mixed.iter().zip(read).all(|(a, b)| (a - f64::from(b)).abs() < 2e-4));
             }
@@ -246,7 +253,7 @@ mod tests {
             let exact: Vec<FitSample> =
                 samples(4000).into_iter().map(|s| FitSample { target: s.coordinates, ..s }).collect();
             let fitted = fit(&identity, how, &exact, |_, _| 1.0, FitSettings::default()).unwrap();
-            for (a, b) in fitted.entries().iter().flatten().zip(identity.entries().iter().flatten()) {
+            for (a, b) in fitted.entries().flatten().zip(identity.entries().flatten()) {
                 assert!((a - b).abs() < 1e-5);
             }
         }
@@ -275,7 +282,7 @@ mod tests {
             .collect();
         let start = Lut3d::identity(9).unwrap();
         let fitted = fit(&start, Interpolation::Trilinear, &near, |_, _| 1.0, FitSettings::default()).unwrap();
-        assert_eq!(fitted.entries()[728], start.entries()[728]);
+        assert_eq!(fitted.entry([8; 3]), start.entry([8; 3]));
         assert!(fit(&start, Interpolation::Trilinear, &[], |_, _| 1.0, FitSettings::default()).is_err());
     }
 

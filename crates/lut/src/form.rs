@@ -1,6 +1,5 @@
 //! The compiled forms: what stands between a scene-linear pixel and the baked numbers.
 
 pub(crate) mod direct;
-pub(crate) mod double;
 pub(crate) mod plain;
 pub(crate) mod structured;

@@ -9,21 +9,20 @@ pub(crate) mod cells;
 pub(crate) mod coding;
 pub(crate) mod curves;
 pub(crate) mod expose;
-pub(crate) mod log2_exp2;
+mod log2_exp2;
 pub(crate) mod lookup;
-pub(crate) mod matrix;
-mod padded;
+mod matrix;
 pub(crate) mod sum;
 mod wide;
 
-pub(crate) use block::{BLOCK, Block, BlockMap, Plane};
-pub(crate) use fearless_simd::Level;
-pub(crate) use padded::Padded;
-
 /// All levels that this machine can run.
 #[cfg(test)]
-pub(crate) fn levels() -> Vec<Level> {
-    let mut levels = vec![Level::fallback(), Level::new()];
+pub(crate) fn levels() -> Vec<fearless_simd::Level> {
+    use fearless_simd::Level;
+
+    let mut levels = vec![Level::new()];
+    #[cfg(feature = "fallback")]
+    levels.push(Level::fallback());
     #[cfg(target_arch = "x86_64")]
     {
         let best = Level::new();

@@ -5,10 +5,7 @@
 //! - [`bake()`] fills a [`Lut3d`] from any closure, [`PlainLut`] applies it to pixels;
 //! - [`deviation()`] measures one map against another under a difference given as a closure,
 //!   over colours such as those of [`SceneSampler`];
-//! - [`certify`] looks for everything a map may get wrong, and [`Certificate`] says it;
-//! - [`CubeFile`] reads and writes `.cube`, [`ClfProcess`] the Common LUT Format, [`read_spi3d`] and [`write_spi3d`]
-//!   `.spi3d`, for which [`Spi3dConfig`] writes the shaper; [`write_hald`] and [`write_strip`] make pictures of tables,
-//!   [`write_ktx2`] a texture.
+//! - [`certify`] looks for everything a map may get wrong, and [`Certificate`] says it.
 //!
 //! What the three numbers of an entry mean (display code values, densities, anything else) is the caller's
 //! affair: entries come out as they went in.
@@ -17,7 +14,7 @@
 //! that nothing fails. An input that is NaN reads as 0, one outside a table's domain reads as the nearest end.
 //!
 //! ```
-//! use onelight_lut::{bake, CubeFile, Interpolation, PlainLut, Shaper};
+//! use onelight_lut::{bake, Interpolation, PlainLut, Shaper};
 //!
 //! // A toy tone curve; a real look would come from a film simulation.
 //! let look = |rgb: [f64; 3]| rgb.map(|u| u / (u + 0.18));
@@ -26,20 +23,18 @@
 //! let table = bake(17, &shaper, look, |_nodes_done| {})?;
 //! let lut = PlainLut::new(shaper, table, Interpolation::Tetrahedral);
 //! assert!((lut.apply([0.18; 3])[0] - 0.5).abs() < 2e-3);
-//!
-//! let mut file = Vec::new();
-//! CubeFile::from_plain(&lut, CubeFile::SHAPER_POINTS)?
-//!     .with_title("toy")
-//!     .with_comments(["input: scene-linear, 1 is diffuse white"])
-//!     .write(&mut file)?;
-//! assert!(file.starts_with(b"# TITLE \"toy\"\n"));
 //! # Ok::<(), onelight_lut::Error>(())
 //! ```
 //!
 //! # Out of scope
 //!
-//! Colour science (what a difference between two colours is arrives as a closure), images, paths and files
-//! (readers and writers are passed in), and applying a table on a GPU.
+//! Colour science (what a difference between two colours is arrives as a closure), images, files (`onelight-formats` reads and
+//! writes those of tables), and applying a table on a GPU.
+
+/// The README's Rust blocks are compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
 
 mod bake;
 mod certificate;
@@ -47,41 +42,43 @@ mod coding;
 mod deviation;
 mod domain;
 mod error;
+mod exponential_sum;
 mod fit;
 mod form;
-mod format;
 mod interpolate;
 mod kernel;
+mod log2_exp2;
 mod lut1d;
 mod lut3d;
+mod number;
+mod padded;
 mod pixels;
+mod scene_light;
 mod scene_sampler;
 mod shaper;
+mod split_mix64;
 mod storage;
 
 pub use bake::{bake, bake_coordinates, bake_form};
 pub use certificate::{
-    Band, Certificate, ColourSet, Fall, Folds, HueSteps, Law, Maps, NeutralAxis, Samples, Search, SetDeviation, certify,
+    Band, Certificate, ColourSet, Fall, Folds, HueSteps, Maps, NeutralAxis, Samples, SamplingLaw, Search, SetDeviation,
+    certify,
 };
-pub use coding::PowerCoding;
+pub use coding::{CodingStandard, PowerCoding};
 pub use deviation::{Deviation, deviation};
 pub use domain::Domain;
 pub use error::Error;
+pub use exponential_sum::{ExponentialSum, ExponentialTerm};
 pub use fit::{FitSample, FitSettings, fit};
-pub use form::direct::{DirectForm, DirectParts, DirectPrint, ExponentialSum, ExponentialTerm};
+pub use form::direct::{DirectForm, DirectParts, DirectPrint};
 pub use form::plain::PlainLut;
-pub use form::structured::{Decode, INPUT_MAX, LOG_FLOOR, Mix, Rows, StructuredLut, StructuredParts};
-pub use format::clf::ClfProcess;
-pub use format::cube::CubeFile;
-pub use format::hald::{read_hald, write_hald};
-pub use format::ktx2::write_ktx2;
-pub use format::picture::PngDepth;
-pub use format::spi3d::{Spi3dConfig, read_spi3d, write_spi3d};
-pub use format::strip::{StripGreen, read_strip, write_strip};
+pub use form::structured::{Decode, Mix, StructuredLut, StructuredParts};
 pub use interpolate::Interpolation;
 pub use lut1d::Lut1d;
 pub use lut3d::Lut3d;
-pub use pixels::{Channels, PixelMap, Pixels, PixelsMut, Sample, Vectors};
+pub use pixels::{Channels, PixelMap, Pixels, PixelsMut, Sample, SimdLevel};
+pub use scene_light::{IDENTITY, LOG_FLOOR, Rows, SCENE_MAX, finite};
 pub use scene_sampler::SceneSampler;
 pub use shaper::{Shaper, ShaperKind, texel_centre};
+pub use split_mix64::SplitMix64;
 pub use storage::Storage;

@@ -1,11 +1,20 @@
 use crate::domain::Domain;
 use crate::error::{Error, Kind};
 use crate::interpolate::cell;
-use crate::lut3d::is_entry;
+use crate::interpolate::is_entry;
+use crate::number::Number;
 
 /// Three curves, one per channel, as numbers at equal steps over a [`Domain`], read linearly between them.
 ///
 /// Inputs outside the domain read the first or last entry; NaN reads the first.
+///
+/// ```
+/// use onelight_lut::Lut1d;
+/// let roots = Lut1d::sample(1024, [0.0, 4.0], f64::sqrt)?;
+/// assert!((roots.apply([1.0, 2.25, 9.0])[1] - 1.5).abs() < 1e-4);
+/// assert_eq!(roots.apply([1.0, 2.25, 9.0])[2], 2.0);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lut1d {
     domain: Domain,
@@ -16,7 +25,7 @@ impl Lut1d {
     /// The fewest entries: the two ends of the domain.
     pub const MIN_SIZE: usize = 2;
 
-    /// The most entries, 2^20.
+    /// The most entries, 2^20: 12 MiB.
     pub const MAX_SIZE: usize = 1 << 20;
 
     /// A table from its entries, red, green and blue; the first lies at the domain's minimum.
@@ -51,7 +60,7 @@ impl Lut1d {
         Self::new(domain, entries)
     }
 
-    /// The inputs covered.
+    /// The inputs that the first and the last entry stand for.
     pub fn domain(&self) -> &Domain {
         &self.domain
     }
@@ -61,17 +70,25 @@ impl Lut1d {
         &self.entries
     }
 
-    /// The number of entries.
+    /// The number of entries of each curve.
     pub fn size(&self) -> usize {
         self.entries.len()
     }
 
     /// Reads each channel's curve at that channel's input.
+    #[inline]
     pub fn apply(&self, rgb: [f32; 3]) -> [f32; 3] {
-        let coordinates = self.domain.normalise(rgb);
+        self.apply_in(rgb)
+    }
+
+    /// The one definition of [`Lut1d::apply`], for float32 and float64.
+    #[inline]
+    pub(crate) fn apply_in<N: Number>(&self, rgb: [N; 3]) -> [N; 3] {
+        let coordinates = self.domain.normalised(rgb);
         std::array::from_fn(|channel| {
             let (index, t) = cell(coordinates[channel], self.entries.len());
-            self.entries[index][channel] * (1.0 - t) + self.entries[index + 1][channel] * t
+            let [low, high] = [index, index + 1].map(|i| N::of(self.entries[i][channel]));
+            low * (N::ONE - t) + high * t
         })
     }
 }

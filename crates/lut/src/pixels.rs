@@ -5,12 +5,12 @@ mod map;
 mod raw;
 mod run;
 mod sample;
+mod samples;
+mod simd_level;
 mod transfer;
-mod vectors;
 mod view;
 
 pub use map::PixelMap;
-pub(crate) use run::map_colours;
 pub use sample::Sample;
-pub use vectors::Vectors;
+pub use simd_level::SimdLevel;
 pub use view::{Channels, Pixels, PixelsMut};

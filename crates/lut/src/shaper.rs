@@ -22,7 +22,7 @@ pub(crate) use log2_offset::LogNumbers;
 /// # Ok::<(), onelight_lut::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shaper(Curve);
+pub struct Shaper(ShaperCurve);
 
 /// What a [`Shaper`] computes, with its parameters: enough to write the same curve elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,9 +37,9 @@ pub enum ShaperKind {
     },
 }
 
-/// The kinds with what each has worked out in advance.
+/// The curve of each [`ShaperKind`], with what it has worked out in advance.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Curve {
+enum ShaperCurve {
     Log2Offset(Log2Offset),
 }
 
@@ -72,7 +72,7 @@ impl Shaper {
             }
             .into());
         }
-        Ok(Self(Curve::Log2Offset(Log2Offset::new(offset, max))))
+        Ok(Self(ShaperCurve::Log2Offset(Log2Offset::new(offset, max))))
     }
 
     /// The shaper of the talk, over `[0, 4]` \[Gotanda2010\].
@@ -82,34 +82,34 @@ impl Shaper {
     /// are moved to the centres of the first and last texel. The half-texel belongs to whatever samples a
     /// texture, once and for its own size, so it is no part of a shaper here.
     pub fn gotanda() -> Self {
-        Self(Curve::Log2Offset(Log2Offset::new(Self::GOTANDA_OFFSET, Self::GOTANDA_MAX)))
+        Self(ShaperCurve::Log2Offset(Log2Offset::new(Self::GOTANDA_OFFSET, Self::GOTANDA_MAX)))
     }
 
     /// The formula and its parameters.
     pub fn kind(&self) -> ShaperKind {
         match &self.0 {
-            Curve::Log2Offset(curve) => ShaperKind::Log2Offset { offset: curve.offset(), max: curve.max() },
+            ShaperCurve::Log2Offset(curve) => ShaperKind::Log2Offset { offset: curve.offset(), max: curve.max() },
         }
     }
 
     /// The scene-linear value that encodes to 1.
     pub fn max(&self) -> f64 {
         match &self.0 {
-            Curve::Log2Offset(curve) => curve.max(),
+            ShaperCurve::Log2Offset(curve) => curve.max(),
         }
     }
 
     /// The table coordinate, in `[0, 1]`, of a scene-linear value.
     pub fn encode(&self, linear: f64) -> f64 {
         match &self.0 {
-            Curve::Log2Offset(curve) => curve.encode(linear),
+            ShaperCurve::Log2Offset(curve) => curve.encode(linear),
         }
     }
 
     /// The scene-linear value, in `[0, max]`, at a table coordinate.
     pub fn decode(&self, coordinate: f64) -> f64 {
         match &self.0 {
-            Curve::Log2Offset(curve) => curve.decode(coordinate),
+            ShaperCurve::Log2Offset(curve) => curve.decode(coordinate),
         }
     }
 
@@ -119,11 +119,11 @@ impl Shaper {
         self.numbers().encode(linear)
     }
 
-    /// The curve in float32.
+    /// The curve's numbers in float32, worked out once.
     #[inline]
     pub(crate) fn numbers(&self) -> &LogNumbers {
         match &self.0 {
-            Curve::Log2Offset(curve) => curve.numbers(),
+            ShaperCurve::Log2Offset(curve) => curve.numbers(),
         }
     }
 }

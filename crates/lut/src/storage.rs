@@ -4,12 +4,20 @@ use crate::error::Error;
 use crate::lut3d::Lut3d;
 
 /// How the entries of a table are kept where it is used: a texture, a file.
+///
+/// ```
+/// use onelight_lut::{Lut3d, Storage};
+/// let table = Lut3d::new(2, vec![[0.0, 0.4, 1.0]; 8])?;
+/// let stored = Storage::Unorm8.stored(&table)?;
+/// assert_eq!(stored.entry([0, 0, 0]), Some([0.0, 102.0 / 255.0, 1.0]));
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Storage {
-    /// 32-bit float.
+    /// Floats of 32 bits, as tables are held.
     #[default]
     F32,
-    /// 16-bit float.
+    /// Floats of 16 bits, up to ±65504.
     F16,
     /// 16-bit integers over the range of the table's entries.
     Unorm16,
@@ -49,14 +57,14 @@ impl Storage {
             Self::Unorm10 => Box::new(codes(1023.0)),
             Self::Unorm8 => Box::new(codes(255.0)),
         };
-        Lut3d::new(table.size(), table.entries().iter().map(|entry| entry.map(&round)).collect())
+        Lut3d::new(table.size(), table.entries().map(|entry| entry.map(&round)).collect())
     }
 }
 
 /// Smallest and largest entry of all channels.
 fn range(table: &Lut3d) -> (f32, f32) {
-    let all = table.entries().iter().flatten();
-    all.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), &v| (low.min(v), high.max(v)))
+    let all = table.entries().flatten();
+    all.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
 }
 
 #[cfg(test)]
@@ -77,9 +85,8 @@ mod tests {
             let stored = storage.stored(&table).unwrap();
             let largest = stored
                 .entries()
-                .iter()
                 .flatten()
-                .zip(table.entries().iter().flatten())
+                .zip(table.entries().flatten())
                 .map(|(a, b)| (a - b).abs())
                 .fold(0.0, f32::max);
             assert!(largest <= 0.5 * step * (high - low) + 1e-6, "{storage:?}: {largest}");

@@ -3,13 +3,13 @@
 
 use onelight_lut::{
     Channels, Decode, DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, Interpolation,
-    Lut1d, Lut3d, Mix, PixelMap, Pixels, PixelsMut, PlainLut, PowerCoding, Rows, Shaper, StructuredLut,
-    StructuredParts, Vectors, bake, bake_coordinates,
+    Lut1d, Lut3d, Mix, PixelMap, Pixels, PixelsMut, PlainLut, PowerCoding, Rows, Shaper, SimdLevel, StructuredLut,
+    StructuredParts, bake, bake_coordinates,
 };
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-/// The same inputs in every run; PROPTEST_CASES digs deeper, in new places each time.
+/// The same inputs in every run; PROPTEST_CASES digs deeper, with new inputs each time.
 fn cases(count: u32) -> ProptestConfig {
     let mut config = ProptestConfig { failure_persistence: None, ..ProptestConfig::default() };
     if std::env::var_os("PROPTEST_CASES").is_none() {
@@ -49,15 +49,15 @@ fn shaper() -> impl Strategy<Value = Shaper> {
 }
 
 /// Every way to map one colour.
-fn ways(form: &impl PixelMap, rgb: [f32; 3]) -> Vec<[f32; 3]> {
+fn implementations(form: &impl PixelMap, rgb: [f32; 3]) -> Vec<[f32; 3]> {
     let mut all = vec![form.apply(rgb)];
-    for vectors in Vectors::available() {
+    for level in SimdLevel::available() {
         // In the middle of other pixels, and where vectors end.
         let mut out = [[7.0_f32; 3]; 9];
         let from = [rgb; 9];
         let pixels = Pixels::new(from.as_flattened(), Channels::Rgb, [9, 1]).unwrap();
         let mut to = PixelsMut::new(out.as_flattened_mut(), Channels::Rgb, [9, 1]).unwrap();
-        form.map_on(vectors, &pixels, &mut to).unwrap();
+        form.map_on(level, &pixels, &mut to).unwrap();
         all.extend([out[0], out[4], out[8]]);
     }
     all
@@ -76,7 +76,7 @@ fn corners(table: &Lut3d, at: [f32; 3]) -> [(f32, f32); 3] {
     for r in span[0].0..=span[0].1 {
         for g in span[1].0..=span[1].1 {
             for b in span[2].0..=span[2].1 {
-                let entry = table.entries()[r + size * (g + size * b)];
+                let entry = table.entry([r, g, b]).unwrap();
                 for (found, v) in found.iter_mut().zip(entry) {
                     *found = (found.0.min(v), found.1.max(v));
                 }
@@ -172,7 +172,7 @@ proptest! {
         let at = rgb.map(|v| shaper.encode_f32(v));
         for how in BOTH {
             let form = PlainLut::new(shaper, table.clone(), how);
-            for out in ways(&form, rgb) {
+            for out in implementations(&form, rgb) {
                 prop_assert!(is_between(out, corners(&table, at)), "{how:?} {rgb:?}: {out:?} in {:?}", corners(&table, at));
             }
         }
@@ -199,7 +199,7 @@ proptest! {
         let table = bake_coordinates(size, look, |_| {}).unwrap();
         let node = node.map(|i| i.index(size));
         let coordinates = node.map(|i| i as f64 / (size - 1) as f64);
-        let entry = table.entries()[node[0] + size * (node[1] + size * node[2])];
+        let entry = table.entry(node).unwrap();
         prop_assert_eq!(entry, look(coordinates).map(|v| v as f32));
         for how in BOTH {
             let out = table.apply(coordinates.map(|v| v as f32), how);
@@ -258,11 +258,11 @@ proptest! {
     }
 }
 
-/// All ways give the result of float64 to `slack` of 1 or of itself.
+/// All implementations give the result of float64 to `slack` of 1 or of itself.
 fn agrees(form: &impl PixelMap, rgb: [f32; 3], slack: f64) -> Result<(), TestCaseError> {
     let exact = form.apply_f64(rgb.map(f64::from));
     prop_assert!(exact.iter().all(|v| v.is_finite()), "{rgb:?}: {exact:?}");
-    for out in ways(form, rgb) {
+    for out in implementations(form, rgb) {
         for (out, exact) in out.into_iter().zip(exact) {
             prop_assert!((f64::from(out) - exact).abs() <= slack * exact.abs().max(1.0), "{rgb:?}: {out} for {exact}");
         }

@@ -1,6 +1,11 @@
 use std::fmt;
 
 /// What went wrong: one sentence that says what, where, what was found and what was expected.
+///
+/// ```
+/// let error = onelight::Process::for_camera("kodak-5270").unwrap_err();
+/// assert!(error.is_unknown_stock() && error.to_string().contains("the nearest is kodak-5"));
+/// ```
 #[derive(Debug)]
 pub struct Error(Kind);
 
@@ -10,11 +15,28 @@ pub(crate) enum Kind {
     Film(onelight_film::Error),
     Printing(onelight_printing::Error),
     Lut(onelight_lut::Error),
-    Look { file: String, line: usize, problem: String },
-    Word { what: &'static str, found: String, expected: String },
+    #[cfg(feature = "formats")]
+    Formats(onelight_formats::Error),
+    Look {
+        file: String,
+        line: usize,
+        problem: String,
+    },
+    Word {
+        what: &'static str,
+        found: String,
+        expected: String,
+    },
     Unreachable(String),
-    Setting { what: String, found: f64, expected: String },
-    UnknownStock { found: String, nearest: Option<&'static str> },
+    Setting {
+        what: String,
+        found: f64,
+        expected: String,
+    },
+    UnknownStock {
+        found: String,
+        nearest: Option<&'static str>,
+    },
     Contradiction(String),
 }
 
@@ -90,6 +112,13 @@ impl From<onelight_lut::Error> for Error {
     }
 }
 
+#[cfg(feature = "formats")]
+impl From<onelight_formats::Error> for Error {
+    fn from(error: onelight_formats::Error) -> Self {
+        Self(Kind::Formats(error))
+    }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
@@ -97,14 +126,16 @@ impl fmt::Display for Error {
             Kind::Film(error) => error.fmt(f),
             Kind::Printing(error) => error.fmt(f),
             Kind::Lut(error) => error.fmt(f),
+            #[cfg(feature = "formats")]
+            Kind::Formats(error) => error.fmt(f),
             Kind::Look { file, line, problem } => write!(f, "{file}:{line}: {problem}"),
             Kind::Word { what, found, expected } => write!(f, "{what}: found {found:?}, expected {expected}"),
             Kind::Setting { what, found, expected } => write!(f, "{what}: found {found}, expected {expected}"),
             Kind::UnknownStock { found, nearest: Some(nearest) } => {
-                write!(f, "no stock is called {found:?}; the nearest is {nearest} (`cargo xtask stocks` lists all)")
+                write!(f, "no stock is called {found:?}; the nearest is {nearest}")
             }
             Kind::UnknownStock { found, nearest: None } => {
-                write!(f, "no stock is called {found:?} (`cargo xtask stocks` lists all)")
+                write!(f, "no stock is called {found:?}, expected a maker and a number, such as kodak-5207")
             }
             Kind::Contradiction(sentence) | Kind::Unreachable(sentence) => f.write_str(sentence),
         }
@@ -119,6 +150,8 @@ impl std::error::Error for Error {
             Kind::Film(error) => error.source(),
             Kind::Printing(error) => error.source(),
             Kind::Lut(error) => error.source(),
+            #[cfg(feature = "formats")]
+            Kind::Formats(error) => error.source(),
             _ => None,
         }
     }

@@ -5,11 +5,14 @@ use onelight_printing::{
     reversal_target,
 };
 use onelight_spectra::quantity::Power;
-use onelight_spectra::{Basis, DisplayDifference, RgbSpace, SpectralDistribution, SpectralShape, TransferCurve};
+use onelight_spectra::{Basis, DisplayDifference, SpectralDistribution, SpectralShape, TransferCurve};
 
-use crate::error::Error;
-use crate::process::{Films, Process};
+use crate::about::About;
+use crate::error::{Error, Kind};
+use crate::films::Films;
+use crate::process::{Approach, ColourSpaces, FilmProcess, Printing, Process};
 use crate::scene::SceneInput;
+use crate::word::Word as _;
 
 /// A [`Process`] compiled: every step in float64 at 1 nm. The measure of all faster forms.
 ///
@@ -27,11 +30,10 @@ pub struct Reference {
     camera: PerLayer<AmountCurve>,
     print: Option<PrintStep>,
     projection: Projection,
-    coding: TransferCurve,
-    output: RgbSpace,
+    about: About,
 }
 
-/// What printing adds.
+/// What printing adds to the camera film.
 #[derive(Debug, Clone)]
 struct PrintStep {
     duplication: LitDuplication,
@@ -41,6 +43,17 @@ struct PrintStep {
 }
 
 /// Every value on the way of one colour: where it comes from.
+///
+/// ```
+/// let film = onelight::Process::default().compile()?;
+/// let stages = film.stages([2.0, 0.5, 0.1]);
+/// assert!(stages.amounts.red.0 > stages.amounts.blue.0);
+/// // What is dense on the negative is clear on the print.
+/// let print = stages.print.as_ref().map(|print| print.amounts);
+/// assert!(print.is_some_and(|print| print.red.0 < print.blue.0));
+/// assert_eq!(stages.coded, film.develop([2.0, 0.5, 0.1]));
+/// # Ok::<(), onelight::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stages {
     /// Scene-linear, sRGB primaries, not negative.
@@ -49,53 +62,66 @@ pub struct Stages {
     pub exposure: PerLayer<LogExposure>,
     /// Dye in the camera film.
     pub amounts: PerLayer<DyeAmount>,
-    /// Exposure and dye of the print, if there is one.
-    pub print: Option<(PerLayer<LogExposure>, PerLayer<DyeAmount>)>,
+    /// The print, if there is one.
+    pub print: Option<PrintStage>,
     /// The light from the screen; Y of the bare lamp is 1.
     pub spectrum: SpectralDistribution<Power>,
-    /// Its tristimulus values.
+    /// Tristimulus values of that light (CIE 1931); Y of the bare lamp is 1.
     pub xyz: [f64; 3],
     /// Display-linear RGB; may be negative or above 1.
     pub linear: [f64; 3],
-    /// Display-coded RGB.
+    /// Display-coded RGB: what [`Reference::develop`] gives.
     pub coded: [f64; 3],
 }
 
+/// What printing makes of one colour.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PrintStage {
+    /// Exposure of the print film behind the negative.
+    pub exposure: PerLayer<LogExposure>,
+    /// Dye in the print film.
+    pub amounts: PerLayer<DyeAmount>,
+}
+
 impl Reference {
-    pub(crate) fn new(process: &Process) -> Result<Self, Error> {
-        let Films { camera: film, print } = Films::of(process)?;
+    fn new(process: &FilmProcess, films: &Films) -> Result<Self, Error> {
+        films.check_for(process.print.is_some())?;
+        process.check()?;
+        let film = &films.camera;
+        let printing = films.print.as_ref().zip(process.print.as_ref());
         let density = EquivalentNeutralDensity::new(process.neutral_density)?;
-        let output = process.output_space.space();
+        let output = process.spaces.output_space.space();
         let basis = Basis::new(process.reconstruction)?;
         let own_grey = PerLayer::all(film.mid_grey()?);
         // What takes longest, side by side.
         let of_print = |print: &Stock| -> Result<_, Error> { Ok(process.dyes.amounts(print, print_mid_grey(print)?)?) };
-        let (camera, paper) =
-            rayon::join(|| process.dyes.amounts(&film, own_grey), || print.as_ref().map(of_print).transpose());
-        let (camera, paper) = (camera?, paper?);
-        let shown = print.as_ref().unwrap_or(&film);
+        let (camera, print) =
+            rayon::join(|| process.dyes.amounts(film, own_grey), || films.print.as_ref().map(of_print).transpose());
+        let (camera, print) = (camera?, print?);
+        let shown = films.print.as_ref().unwrap_or(film);
         let projection = Projection::new(shown.dyes_on(SpectralShape::VISIBLE)?, process.projector, &output)?;
-        let normal = match print {
+        let normal = match printing {
             Some(_) => own_grey,
-            None => reversal_target(process.aim, density, &film, own_grey, camera.as_ref(), &projection)?,
+            None => reversal_target(process.aim, density, film, own_grey, camera.as_ref(), &projection)?,
         };
         let over = process.overexposure * std::f64::consts::LOG10_2;
         let mid_grey = normal.map(|h| LogExposure(h.0 + over));
-        let print = match print.as_ref().zip(paper) {
-            Some((print, paper)) => {
-                Some(PrintStep::new(process, &film, (print, paper), &camera, mid_grey, &projection)?)
+        let print = match printing.zip(print) {
+            Some(((print, printing), curves)) => {
+                let grey = camera.as_ref().zip_map(mid_grey, AmountCurve::amount);
+                let target = print_target(process.aim, density, print, curves.as_ref(), &projection)?;
+                Some(PrintStep::new(printing, film, print, grey, target, curves)?)
             }
             None => None,
         };
         Ok(Self {
-            scene: SceneInput::new(process)?,
-            exposure: ExposureMatrix::new(&film, &basis, process.matching, normal)?.overexposed(process.overexposure),
+            scene: SceneInput::new(process.spaces.input_space)?,
+            exposure: ExposureMatrix::new(film, &basis, process.matching, normal)?.overexposed(process.overexposure),
             mid_grey,
             camera,
             print,
             projection,
-            coding: process.output_coding,
-            output,
+            about: About::new(&films.named_in(&Process::Film(process.clone()))),
         })
     }
 
@@ -105,7 +131,7 @@ impl Reference {
     /// sRGB primaries counts as 0.
     #[must_use]
     pub fn develop(&self, rgb: [f64; 3]) -> [f64; 3] {
-        self.develop_linear(rgb).map(|v| self.coding.encode(v))
+        self.develop_linear(rgb).map(|v| self.coding().encode(v))
     }
 
     /// Scene-linear RGB to display-linear RGB, not clipped. Hard inputs as in [`Reference::develop`].
@@ -127,9 +153,9 @@ impl Reference {
         self.projection.rgb(self.shown(amounts))
     }
 
-    /// The same to tristimulus values; Y of the bare lamp is 1, all three are above 0.
+    /// Dye in the camera film to tristimulus values; Y of the bare lamp is 1, all three are above 0.
     pub(crate) fn xyz_of_amounts(&self, amounts: PerLayer<DyeAmount>) -> [f64; 3] {
-        self.projection.xyz(self.shown(amounts)).data.0[0]
+        self.projection.xyz(self.shown(amounts))
     }
 
     /// Dye in the film on the screen, for dye in the camera film.
@@ -146,7 +172,7 @@ impl Reference {
         self.print.as_ref().map(|print| print.duplication.expose(amounts))
     }
 
-    /// Every value on the way.
+    /// Every value on the way of a scene-linear colour.
     #[must_use]
     pub fn stages(&self, rgb: [f64; 3]) -> Stages {
         let scene = self.scene.clean(rgb);
@@ -154,20 +180,20 @@ impl Reference {
         let amounts = self.camera_amounts(exposure);
         let print = self.print.as_ref().map(|print| {
             let exposure = print.duplication.expose(amounts);
-            (exposure, print.amounts(exposure))
+            PrintStage { exposure, amounts: print.amounts(exposure) }
         });
-        let shown = print.map_or(amounts, |(_, amounts)| amounts);
+        let shown = print.map_or(amounts, |print| print.amounts);
         let xyz = self.projection.xyz(shown);
-        let linear = self.projection.rgb_of(&xyz);
+        let linear = self.projection.rgb_of(xyz);
         Stages {
             scene,
             exposure,
             amounts,
             print,
             spectrum: self.projection.spectrum(shown),
-            xyz: xyz.data.0[0],
+            xyz,
             linear,
-            coded: linear.map(|v| self.coding.encode(v)),
+            coded: linear.map(|v| self.coding().encode(v)),
         }
     }
 
@@ -212,17 +238,29 @@ impl Reference {
     /// # Errors
     /// None for the built-in spaces.
     pub fn difference(&self) -> Result<DisplayDifference, Error> {
-        Ok(DisplayDifference::new(&self.output)?)
+        self.about.difference()
     }
 
     /// The transfer curve of [`Reference::develop`].
     #[must_use]
     pub fn coding(&self) -> TransferCurve {
-        self.coding
+        self.about.coding()
     }
 
-    pub(crate) fn output(&self) -> &RgbSpace {
-        &self.output
+    /// The RGB that comes in and goes out.
+    #[must_use]
+    pub fn spaces(&self) -> &ColourSpaces {
+        &self.about.spaces
+    }
+
+    /// A short name made of the films: `kodak-5207_kodak-2383`, `fuji-velvia-50`.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.about.name
+    }
+
+    pub(crate) fn about(&self) -> &About {
+        &self.about
     }
 
     pub(crate) fn projection(&self) -> &Projection {
@@ -237,6 +275,11 @@ impl Reference {
         self.scene.to_srgb()
     }
 
+    /// The input's primaries of a colour in sRGB's.
+    pub(crate) fn input_of_srgb(&self, rgb: [f64; 3]) -> [f64; 3] {
+        self.scene.input_of_srgb(rgb)
+    }
+
     pub(crate) fn rgb_from_xyz(&self) -> &Matrix3<f64> {
         self.projection.rgb_from_xyz()
     }
@@ -247,24 +290,81 @@ impl Reference {
 }
 
 impl PrintStep {
+    /// The printer set so that dye `grey` of the negative gives the print the exposure `target`.
     fn new(
-        process: &Process,
+        printing: &Printing,
         negative: &Stock,
-        (print, curves): (&Stock, PerLayer<AmountCurve>),
-        camera: &PerLayer<AmountCurve>,
-        mid_grey: PerLayer<LogExposure>,
-        projection: &Projection,
+        print: &Stock,
+        grey: PerLayer<DyeAmount>,
+        target: PerLayer<LogExposure>,
+        curves: PerLayer<AmountCurve>,
     ) -> Result<Self, Error> {
-        let density = EquivalentNeutralDensity::new(process.neutral_density)?;
-        let target = print_target(process.aim, density, print, curves.as_ref(), projection)?;
-        let grey = camera.as_ref().zip_map(mid_grey, AmountCurve::amount);
-        let duplication = Duplication::new(negative, print, process.printer())?;
-        let lights = duplication.calibrate_by(process.calibration, grey, target)?;
-        let lights = lights.offset(PerLayer::from(process.points));
+        let duplication = Duplication::new(negative, print, printing.printer())?;
+        let lights = duplication.calibrate_by(printing.calibration, grey, target)?;
+        let lights = lights.offset(PerLayer::from(printing.points));
         Ok(Self { duplication: duplication.lit(lights), lights, target, curves })
     }
 
     fn amounts(&self, exposure: PerLayer<LogExposure>) -> PerLayer<DyeAmount> {
         self.curves.as_ref().zip_map(exposure, AmountCurve::amount)
     }
+}
+
+impl FilmProcess {
+    /// The exact simulation with the built-in films that the process names: float64 at 1 nm.
+    ///
+    /// # Errors
+    /// If a stock is unknown or a sheet of one's own, the parts contradict each other, a sheet lacks what is asked of it, or the
+    /// aim cannot be reached.
+    pub fn compile(&self) -> Result<Reference, Error> {
+        Reference::new(self, &Films::of_film(self)?)
+    }
+
+    /// The exact simulation with these films instead of those that the process names.
+    ///
+    /// # Errors
+    /// As [`FilmProcess::compile`], but for names of stocks; if only one of process and films has a print.
+    pub fn compile_with(&self, films: &Films) -> Result<Reference, Error> {
+        Reference::new(self, films)
+    }
+}
+
+impl Process {
+    /// The exact simulation with the built-in films that the process names: float64 at 1 nm.
+    ///
+    /// # Errors
+    /// If a stock is unknown or a sheet of one's own, the parts contradict each other, a sheet lacks what is asked of it, the
+    /// aim cannot be reached, or the process is no simulation of film ([`Process::look`] takes any).
+    pub fn compile(&self) -> Result<Reference, Error> {
+        self.film()?.compile()
+    }
+
+    /// The exact simulation with these films instead of those that the process names: data sheets of one's own, read by
+    /// [`Stock::parse`].
+    ///
+    /// # Errors
+    /// As [`Process::compile`], but for names of stocks; if only one of process and films has a print.
+    pub fn compile_with(&self, films: &Films) -> Result<Reference, Error> {
+        self.film()?.compile_with(films)
+    }
+
+    /// The description of the film, for what only it has.
+    ///
+    /// # Errors
+    /// If the process is no simulation of film.
+    pub fn film(&self) -> Result<&FilmProcess, Error> {
+        match self {
+            Self::Film(film) => Ok(film),
+            Self::First(_) | Self::Tone(_) => Err(no_film(self.approach())),
+        }
+    }
+}
+
+/// The sentence for what needs the second approach.
+pub(crate) fn no_film(approach: Approach) -> Error {
+    Kind::Contradiction(format!(
+        "approach {} has no spectra, dyes or film curves, expected approach second",
+        approach.word()
+    ))
+    .into()
 }

@@ -1,31 +1,44 @@
 use nalgebra::{Matrix3, Vector3};
+pub use onelight_spectra::SCENE_MAX;
 use onelight_spectra::{Chromaticity, RgbSpace};
+pub(crate) use onelight_spectra::{MID_GREY, finite};
 
-use crate::error::Error;
-use crate::process::Process;
-
-/// The brightest scene value: more would overflow float32 in the exposure matrix.
-pub const SCENE_MAX: f64 = 1e30;
+use crate::error::{Error, Kind};
+use crate::word::WorkingSpace;
 
 /// Scene light on its way to a film: from the input's primaries to sRGB's, hard values cleaned.
 #[derive(Debug, Clone)]
 pub(crate) struct SceneInput {
     to_srgb: Matrix3<f64>,
+    from_srgb: Matrix3<f64>,
 }
 
 impl SceneInput {
-    pub(crate) fn new(process: &Process) -> Result<Self, Error> {
-        let white = Chromaticity::black_body_6500_k();
-        Ok(Self { to_srgb: process.input_space.space().to_about(&RgbSpace::SRGB, white)? })
+    pub(crate) fn new(input: WorkingSpace) -> Result<Self, Error> {
+        let to_srgb = input.space().to_about(&RgbSpace::SRGB, Chromaticity::black_body_6500_k())?;
+        let flat =
+            || Kind::Contradiction(format!("the primaries of {input:?} are on one line, expected three colours"));
+        let from_srgb = to_srgb.try_inverse().ok_or_else(flat)?;
+        Ok(Self { to_srgb, from_srgb })
     }
 
     /// sRGB primaries, 0 to [`SCENE_MAX`]: NaN counts as 0.
     pub(crate) fn clean(&self, rgb: [f64; 3]) -> [f64; 3] {
-        let finite = rgb.map(|v| if v.is_nan() { 0.0 } else { v.clamp(-SCENE_MAX, SCENE_MAX) });
-        (self.to_srgb * Vector3::from(finite)).data.0[0].map(|v| v.clamp(0.0, SCENE_MAX))
+        let srgb = self.to_srgb * Vector3::from(rgb.map(finite));
+        [srgb.x, srgb.y, srgb.z].map(|v| v.clamp(0.0, SCENE_MAX))
     }
 
     pub(crate) fn to_srgb(&self) -> &Matrix3<f64> {
         &self.to_srgb
     }
+
+    /// The input's primaries of a colour in sRGB's.
+    pub(crate) fn input_of_srgb(&self, rgb: [f64; 3]) -> [f64; 3] {
+        multiply(&self.from_srgb, rgb)
+    }
+}
+
+/// A matrix times a colour.
+pub(crate) fn multiply(matrix: &Matrix3<f64>, rgb: [f64; 3]) -> [f64; 3] {
+    (matrix * Vector3::from(rgb)).into()
 }

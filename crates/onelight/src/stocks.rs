@@ -1,6 +1,7 @@
 use onelight_film::{SheetText, Stock};
 
 use crate::error::{Error, Kind};
+use crate::message::{cut, nearest};
 
 /// The ids of all built-in stocks: negatives, reversal films, print films.
 pub fn stock_ids() -> impl Iterator<Item = &'static str> {
@@ -31,30 +32,6 @@ pub fn stock(id: &str) -> Result<Stock, Error> {
     })?)
 }
 
-/// More characters of a name than a message repeats or a slip of the finger can account for.
-const NAME_CHARACTERS: usize = 64;
-/// Names less alike than this have nothing to do with each other: unrelated words reach 0.6 in Jaro and Winkler's measure.
-const ALIKE: f64 = 0.72;
-/// Fewer characters than this are found inside of many names.
-const PART_CHARACTERS: usize = 3;
-
-/// The beginning of what a user wrote, for messages.
-pub(crate) fn cut(found: &str) -> String {
-    found.chars().take(NAME_CHARACTERS).collect()
-}
-
-/// The candidate that looks most like `found`, if any looks like it: by its letters, or because `found` is part of it.
-pub(crate) fn nearest<'a>(found: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let found = cut(found).to_lowercase();
-    let likeness = |candidate: &str| {
-        let part = found.chars().count() >= PART_CHARACTERS && candidate.contains(&found);
-        strsim::jaro_winkler(&found, candidate) + if part { 1.0 } else { 0.0 }
-    };
-    let scored =
-        candidates.map(|candidate| (likeness(candidate), candidate)).filter(|(likeness, _)| *likeness >= ALIKE);
-    scored.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, candidate)| candidate)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -83,7 +60,7 @@ mod tests {
             assert_eq!(nearest(found, stock_ids()), None, "{found}");
             assert_eq!(
                 stock(found).unwrap_err().to_string(),
-                format!("no stock is called {found:?} (`cargo xtask stocks` lists all)")
+                format!("no stock is called {found:?}, expected a maker and a number, such as kodak-5207")
             );
         }
     }

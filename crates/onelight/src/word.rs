@@ -5,10 +5,8 @@ use onelight_lut::Storage;
 use onelight_printing::{Aim, HeatGlass, Infrared, PrinterLight, Projector, Wratten};
 use onelight_spectra::{Reconstruction, RgbSpace, TransferCurve};
 
-use crate::approach::Approach;
 use crate::error::{Error, Kind};
-use crate::stocks::{cut, nearest};
-use crate::structured::{Entries, TableCoding};
+use crate::message::{cut, nearest};
 
 /// A choice that has a word for each of its values.
 ///
@@ -44,26 +42,28 @@ pub trait Word: Copy + PartialEq + 'static {
     }
 }
 
+/// Gives choices their words, each with a line of help.
 macro_rules! words {
     ($($type:ty, $key:literal: $($value:path = $word:literal $help:literal),+;)*) => {
-        $(impl Word for $type {
+        $(impl $crate::word::Word for $type {
             const KEY: &'static str = $key;
             const ALL: &'static [(Self, &'static str, &'static str)] = &[$(($value, $word, $help)),+];
         })*
     };
 }
+pub(crate) use words;
 
 /// The RGB spaces that pictures come and go in: primaries only, (1, 1, 1) is always white.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum WorkingSpace {
-    /// sRGB and BT.709.
+    /// sRGB's, which are those of BT.709 (\[IEC61966-2-1\]).
     #[default]
     Srgb,
-    /// Display P3.
+    /// Display P3's: those of film projection with a display's white.
     P3,
-    /// BT.2020.
+    /// BT.2020's, for ultra high definition television.
     Rec2020,
-    /// ACEScg (AP1).
+    /// ACEScg's (AP1), wide enough for rendering.
     AcesCg,
 }
 
@@ -81,12 +81,6 @@ impl WorkingSpace {
 }
 
 words! {
-    Approach, "approach":
-        Approach::Second = "second" "the simulation: spectrum, dye, print, projection",
-        Approach::First = "first" "the talk's first: three wavelengths and tone curves",
-        Approach::Reinhard = "reinhard" "no film: x / (1 + x) for each channel",
-        Approach::ReinhardLuminance = "reinhard-luminance" "no film: the same of luminance",
-        Approach::Clip = "clip" "no film: what does not fit is cut off";
     Aim, "aim":
         Aim::Neutral = "neutral" "18 % grey becomes exactly neutral, display-linear 10^-0.7",
         Aim::Sheet = "sheet" "the aim densities of the print's sheet; a reversal film's own exposure";
@@ -125,12 +119,6 @@ words! {
         Projector::Theatre = "theatre" "5500 K, the eye adapted to it",
         Projector::TheatreUnadapted = "theatre-unadapted" "5500 K beside a 6500 K display",
         Projector::Xenon = "xenon" "a cinema's xenon lamp, the eye adapted to it";
-    Entries, "entries":
-        Entries::Sampled = "sampled" "the film's result at each node",
-        Entries::Fitted = "fitted" "moved so that what is read between nodes comes nearest to the film";
-    TableCoding, "coding":
-        TableCoding::Density = "density" "densities: the most accurate in 16 bits and more",
-        TableCoding::Display = "display" "display-coded colours: better in 10 bits and fewer";
     Storage, "storage":
         Storage::F32 = "f32" "32-bit float",
         Storage::F16 = "f16" "16-bit float",
@@ -148,11 +136,11 @@ words! {
         TransferCurve::Linear = "linear" "light itself";
 }
 
-/// For `#[serde(with = "word::text")]`.
+/// Choices as their words in text, by `#[serde(with = "word::text")]`.
 pub(crate) mod text {
     use serde::{Deserialize, Deserializer, Serializer, de};
 
-    use super::Word;
+    use crate::word::Word;
 
     pub(crate) fn serialize<T: Word, S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(value.word())
@@ -166,6 +154,7 @@ pub(crate) mod text {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Approach, Entries, TableCoding, baked};
 
     fn complete<T: Word + std::fmt::Debug>() {
         for (value, word, help) in T::ALL {
@@ -195,5 +184,7 @@ mod tests {
         complete::<Storage>();
         complete::<WorkingSpace>();
         complete::<TransferCurve>();
+        complete::<baked::Form>();
+        complete::<baked::ShaperChoice>();
     }
 }

@@ -2,21 +2,54 @@ use nalgebra::{Matrix3, Vector3};
 use onelight_film::{DyeAmount, Dyes, LogExposure, PerLayer, Stock, StockKind, Tail};
 use onelight_spectra::SpectralDistribution;
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind, expect_kind};
 use crate::printer::{Printer, PrinterLight, PrinterLights};
+use crate::spectral_row::{SpectralRow, transmitted};
 
 /// How the printer's lights are found.
+///
+/// ```
+/// use onelight_printing::Calibration;
+/// assert_eq!(Calibration::default(), Calibration::Exact);
+/// let talk = Calibration::Iterations(1);
+/// # let _ = talk;
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Calibration {
     /// By solving for them: exposure is linear in the lights.
     #[default]
     Exact,
-    /// The talk's way, stopped after so many corrections: largest error of the print's log10 exposure for 5207 on 2383 after
-    /// 0, 1, 2, 3: 0.3, 5e-3, 7e-5, 3e-6. One is enough for the eye.
+    /// The talk's way, stopped after so many corrections ([`Duplication::calibrate_by_iteration`]). One is enough for the eye:
+    /// docs/talk.md has the errors.
     Iterations(u8),
 }
 
 /// A negative in a printer over a print film: from amounts of dye to the exposure of the print's layers.
+///
+/// ```
+/// use onelight_film::{DyeModel, PerLayer, SheetText, Stock};
+/// use onelight_printing::{Calibration, Duplication, Printer, print_mid_grey};
+/// # fn read(id: &str) -> Result<Stock, Box<dyn std::error::Error>> {
+/// #     let f = onelight_stocks::find(id).ok_or("no such stock")?;
+/// #     Ok(Stock::parse(&SheetText { id: f.id, stock_toml: f.stock_toml, sensitivity_csv: f.sensitivity_csv,
+/// #         characteristic_csv: f.characteristic_csv, dye_density_csv: f.dye_density_csv })?)
+/// # }
+/// let (negative, print) = (read("kodak-5207")?, read("kodak-2383")?);
+/// let mid_grey = PerLayer::all(negative.mid_grey()?);
+/// let grey_card = DyeModel::Wedge.amounts(&negative, mid_grey)?.as_ref().zip_map(mid_grey, |curve, h| curve.amount(h));
+///
+/// // The lights that print a grey card as the sheet of the print film wants it.
+/// let printer = Duplication::new(&negative, &print, Printer::default())?;
+/// let target = print_mid_grey(&print)?;
+/// let exact = printer.calibrate(grey_card, target)?;
+/// let found = printer.lit(exact).expose(grey_card);
+/// assert!((found.red.0 - target.red.0).abs() < 1e-12);
+///
+/// // The talk's one iteration comes near.
+/// let near = printer.calibrate_by(Calibration::Iterations(1), grey_card, target)?;
+/// assert!((near.0.red / exact.0.red - 1.0).abs() < 0.02);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Duplication {
     negative: String,
@@ -98,7 +131,7 @@ impl Duplication {
     }
 
     /// The talk's way to the same lights (\[Gotanda2010\]): from equal lights, `iterations` times correct each beam by what its
-    /// own layer misses. Largest error in log10 exposure for 5207 on 2383 after 0, 1, 2, 3: 0.3, 5e-3, 7e-5, 3e-6.
+    /// own layer misses.
     ///
     /// # Errors
     /// If a light ends negative: the aim cannot be reached in this way.
@@ -135,15 +168,15 @@ impl Duplication {
         if lights.to_array().iter().all(|&g| g > 0.0) {
             return Ok(PrinterLights(lights));
         }
-        Err(Kind::NegativeLight { negative: self.negative.clone(), print: self.print.clone(), lights }.into())
+        Err(ErrorKind::NegativeLight { negative: self.negative.clone(), print: self.print.clone(), lights }.into())
     }
 
     fn dependent(&self) -> Error {
-        Kind::Dependent { negative: self.negative.clone(), print: self.print.clone() }.into()
+        ErrorKind::Dependent { negative: self.negative.clone(), print: self.print.clone() }.into()
     }
 }
 
-/// Three lights that span less than this, each taken as a direction, are not three.
+/// Where the directions of the three lights span less volume than this, two of them do the same.
 const LEAST_VOLUME: f64 = 1e-9;
 
 /// Each layer of the print gets light `k` of its own colour alone: a white beam balanced layer by layer.
@@ -157,34 +190,25 @@ fn only_its_own(mut weights: [[Vec<f64>; 3]; 3]) -> [[Vec<f64>; 3]; 3] {
 }
 
 /// A [`Duplication`] with its lights set: what a picture goes through.
+///
+/// ```
+/// use onelight_film::{DyeAmount, PerLayer, SheetText, Stock};
+/// use onelight_printing::{Duplication, Printer, PrinterLights};
+/// # fn read(id: &str) -> Result<Stock, Box<dyn std::error::Error>> {
+/// #     let f = onelight_stocks::find(id).ok_or("no such stock")?;
+/// #     Ok(Stock::parse(&SheetText { id: f.id, stock_toml: f.stock_toml, sensitivity_csv: f.sensitivity_csv,
+/// #         characteristic_csv: f.characteristic_csv, dye_density_csv: f.dye_density_csv })?)
+/// # }
+/// let (negative, print) = (read("kodak-5207")?, read("kodak-2383")?);
+/// let lit = Duplication::new(&negative, &print, Printer::default())?.lit(PrinterLights(PerLayer::all(100.0)));
+/// // More cyan in the negative: less red light for the print.
+/// let [thin, dense] = [0.2, 1.2].map(|cyan| lit.expose(PerLayer { red: DyeAmount(cyan), ..PerLayer::all(DyeAmount(0.5)) }));
+/// assert!(dense.red < thin.red);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct LitDuplication {
     rows: Vec<SpectralRow>,
-}
-
-/// What a film and its light do at one wavelength: the light that passes adds `weights * 10^-(base + dyes . amounts)` to three
-/// sums, which are exposures or tristimulus values.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SpectralRow {
-    /// Density of one unit of each dye: cyan, magenta, yellow.
-    pub dyes: [f64; 3],
-    /// Density of the film without any.
-    pub base: f64,
-    /// What each sum gets of light that passes unhindered; step of the grid and trapezoid included.
-    pub weights: [f64; 3],
-}
-
-/// Sum over wavelengths of weights times 10^-(base + dyes . amounts).
-pub(crate) fn transmitted(rows: &[SpectralRow], amounts: [f64; 3]) -> [f64; 3] {
-    let mut sum = [0.0; 3];
-    for SpectralRow { dyes, base, weights } in rows {
-        let density = base + dyes[0] * amounts[0] + dyes[1] * amounts[1] + dyes[2] * amounts[2];
-        let passed = (-std::f64::consts::LN_10 * density).exp();
-        for (sum, weight) in sum.iter_mut().zip(weights) {
-            *sum += weight * passed;
-        }
-    }
-    sum
 }
 
 impl LitDuplication {
@@ -198,21 +222,5 @@ impl LitDuplication {
     #[must_use]
     pub fn rows(&self) -> &[SpectralRow] {
         &self.rows
-    }
-}
-
-pub(crate) fn expect_kind(stock: &Stock, expected: StockKind) -> Result<(), Error> {
-    if stock.kind() == expected {
-        return Ok(());
-    }
-    let (found, expected) = (kind_name(stock.kind()), kind_name(expected));
-    Err(Kind::Misplaced { stock: stock.id().to_owned(), found, expected }.into())
-}
-
-fn kind_name(kind: StockKind) -> &'static str {
-    match kind {
-        StockKind::Negative => "negative",
-        StockKind::Reversal => "reversal film",
-        StockKind::Print => "print film",
     }
 }

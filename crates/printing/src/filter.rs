@@ -1,17 +1,26 @@
-use onelight_spectra::{NumberTable, Pchip, SpectralDistribution, SpectralShape, quantity::OpticalDensity};
+use onelight_film::NumberTable;
+use onelight_spectra::{Pchip, SpectralDistribution, SpectralShape, quantity::OpticalDensity};
 
 use crate::error::Error;
 
 /// A Kodak Wratten gelatin filter (\[KodakB3\]).
+///
+/// ```
+/// use onelight_printing::Wratten;
+/// use onelight_spectra::SpectralShape;
+/// let red = Wratten::No70.density(SpectralShape::VISIBLE)?;
+/// assert!(red.at(690.0) < Some(0.5) && red.at(550.0) > Some(2.0));
+/// # Ok::<(), onelight_printing::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Wratten {
     /// No. 70: the red separation filter for printing.
     No70,
-    /// No. 99: green.
+    /// No. 99: the green separation filter for printing.
     No99,
-    /// No. 98: blue.
+    /// No. 98: the blue separation filter for printing.
     No98,
-    /// No. 2B: absorbs ultraviolet.
+    /// No. 2B: absorbs ultraviolet light, which films are sensitive to.
     No2B,
 }
 
@@ -19,7 +28,7 @@ pub enum Wratten {
 const CHART_LIMIT: f64 = 3.0;
 
 impl Wratten {
-    /// All of them.
+    /// The four filters of a printer: red, green, blue, ultraviolet.
     pub const ALL: [Self; 4] = [Self::No70, Self::No99, Self::No98, Self::No2B];
 
     fn column(self) -> &'static str {
@@ -31,7 +40,7 @@ impl Wratten {
         }
     }
 
-    /// Density on a grid: monotone cubic through the chart's values, 3.0 where it stops, end values held outside
+    /// Density on a wavelength grid: monotone cubic through the chart's values, 3.0 where it stops, end values held outside
     /// 300..895 nm.
     ///
     /// # Errors
@@ -39,18 +48,27 @@ impl Wratten {
     pub fn density(self, shape: SpectralShape) -> Result<SpectralDistribution<OpticalDensity>, Error> {
         let text = include_str!("../data/wratten_printing_set.csv");
         let table = NumberTable::parse("wratten_printing_set.csv", text)?;
-        let (nm, density) = (table.column("wavelength_nm")?, table.column(self.column())?);
-        let first = density.iter().position(Option::is_some).unwrap_or(0);
-        let last = density.iter().rposition(Option::is_some).unwrap_or(0);
-        let x = nm[first..=last].iter().map(|v| v.unwrap_or(f64::NAN)).collect();
-        let y = density[first..=last].iter().map(|d| d.unwrap_or(CHART_LIMIT)).collect();
-        let curve = Pchip::new(x, y)?;
+        // The chart's values, and its limit wherever it is blank between the first and the last of them.
+        let published = table.points("wavelength_nm", self.column())?;
+        let ends = published.x[0]..=published.x[published.x.len() - 1];
+        let chart = table.column("wavelength_nm")?.iter().zip(table.column(self.column())?);
+        let chart = chart.filter_map(|(nm, density)| Some((*nm.as_ref()?, density.unwrap_or(CHART_LIMIT))));
+        let (nm, density) = chart.filter(|(nm, _)| ends.contains(nm)).unzip();
+        let curve = Pchip::new(nm, density)?;
         Ok(SpectralDistribution::from_fn(shape, |nm| curve.at(nm))?)
     }
 }
 
 /// Heat-absorbing glass between lamp and film. The curve of Kodak's No. 2043 is not published; these are stand-ins with
 /// T = 0.001 + 0.899 / (1 + exp((nm - edge) / 8)).
+///
+/// ```
+/// use onelight_printing::HeatGlass;
+/// use onelight_spectra::SpectralShape;
+/// let glass = HeatGlass::No2043.density(SpectralShape::by_1_nm::<400, 1000>())?;
+/// assert!(glass.at(550.0) < Some(0.05) && glass.at(900.0) > Some(2.9));
+/// # Ok::<(), onelight_printing::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum HeatGlass {
     /// None: the lamp's infrared reaches the film.
@@ -63,7 +81,7 @@ pub enum HeatGlass {
 }
 
 impl HeatGlass {
-    /// Density on a grid.
+    /// Density of the glass on a wavelength grid; 0 without one.
     ///
     /// # Errors
     /// None; the signature is that of the distribution.

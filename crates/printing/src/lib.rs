@@ -18,15 +18,16 @@
 //! # }
 //! let (negative, print) = (read("kodak-5207")?, read("kodak-2383")?);
 //! let camera = DyeModel::Wedge.amounts(&negative, PerLayer::all(negative.mid_grey()?))?;
-//! let paper = DyeModel::Wedge.amounts(&print, print_mid_grey(&print)?)?;
+//! let print_curves = DyeModel::Wedge.amounts(&print, print_mid_grey(&print)?)?;
 //! let projection = Projection::new(print.dyes_on(SpectralShape::VISIBLE)?, Projector::Display, &RgbSpace::SRGB)?;
 //!
 //! // Set the printer's lights so that a grey card comes out grey.
-//! let grey = camera.as_ref().map(|curve| curve.amount(negative.mid_grey().unwrap_or_default()));
-//! let target = print_target(Aim::Neutral, EquivalentNeutralDensity::default(), &print, paper.as_ref(), &projection)?;
+//! let mid_grey = negative.mid_grey()?;
+//! let grey = camera.as_ref().map(|curve| curve.amount(mid_grey));
+//! let target = print_target(Aim::Neutral, EquivalentNeutralDensity::default(), &print, print_curves.as_ref(), &projection)?;
 //! let printer = Duplication::new(&negative, &print, Printer::default())?;
 //! let printer = printer.lit(printer.calibrate(grey, target)?);
-//! let dye = paper.as_ref().zip_map(printer.expose(grey), |curve, h| curve.amount(h));
+//! let dye = print_curves.as_ref().zip_map(printer.expose(grey), |curve, h| curve.amount(h));
 //! assert!(projection.rgb(dye).iter().all(|v| (v - 10f64.powf(-0.7)).abs() < 1e-9));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -41,10 +42,17 @@ mod error;
 mod filter;
 mod printer;
 mod projection;
+mod spectral_row;
 
 pub use aim::{Aim, EquivalentNeutralDensity, NEUTRAL_DENSITY, print_mid_grey, print_target, reversal_target};
-pub use duplication::{Calibration, Duplication, LitDuplication, SpectralRow};
+pub use duplication::{Calibration, Duplication, LitDuplication};
 pub use error::Error;
 pub use filter::{HeatGlass, Wratten};
 pub use printer::{Filters, Infrared, POINT_LOG_EXPOSURE, Printer, PrinterLight, PrinterLights};
 pub use projection::{Projection, Projector};
+pub use spectral_row::SpectralRow;
+
+/// The examples of README.md, compiled and run with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -5,29 +5,48 @@ use crate::error::Error;
 use crate::filter::{HeatGlass, Wratten};
 
 /// Whether the light between 780 and 1000 nm takes part in printing.
+///
+/// ```
+/// use onelight_printing::{Infrared, Printer};
+/// let cut = Printer { infrared: Infrared::Off, ..Printer::default() };
+/// assert_eq!(cut.shape().last_nm(), 780.0);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Infrared {
-    /// Up to 1000 nm.
+    /// It does: printing is computed up to 1000 nm.
     #[default]
     On,
-    /// Cut at 780 nm.
+    /// It does not: printing is computed up to 780 nm.
     Off,
 }
 
 /// How the printer's lamp meets the layers of the print.
+///
+/// ```
+/// use onelight_printing::{Printer, PrinterLight};
+/// use onelight_film::PerLayer;
+/// let white = Printer { light: PrinterLight::White, beam_density: PerLayer::all(0.0), ..Printer::default() }.beams()?;
+/// assert_eq!(white.red, white.blue);
+/// # Ok::<(), onelight_printing::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum PrinterLight {
     /// An additive printer: three beams, each behind its own separation filter. Each beam reaches mostly one layer.
     #[default]
     Separations,
     /// A subtractive printer: one white beam, balanced for each layer by itself, as ideal colour-correcting filters would.
-    /// The layers' sensitivities overlap in white light: prints lose chroma against separations, dE 1.1 in
-    /// the mean for 5207 on 2383.
+    /// The layers' sensitivities overlap in white light: prints lose chroma against separations.
     White,
 }
 
-/// The gelatin filters that are in the printer: all of [`Wratten::ALL`], or fewer to see what each is for. 5207 on 2383 cannot be
-/// calibrated without No. 70 or No. 99; taking No. 98 out is dE 0.55 in the mean, No. 2B 0.05.
+/// The gelatin filters that are in the printer: all of [`Wratten::ALL`], or fewer to see what each is for. Without No. 70 or No. 99
+/// most prints cannot be calibrated.
+///
+/// ```
+/// use onelight_printing::{Filters, Wratten};
+/// let without_blue = Filters::of(&[Wratten::No70, Wratten::No99, Wratten::No2B]);
+/// assert!(!without_blue.contains(Wratten::No98) && Filters::default().contains(Wratten::No98));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Filters([bool; Wratten::ALL.len()]);
 
@@ -40,7 +59,7 @@ impl Filters {
 
     /// Whether a filter is in place.
     #[must_use]
-    pub fn hold(self, filter: Wratten) -> bool {
+    pub fn contains(self, filter: Wratten) -> bool {
         self.iter().any(|held| held == filter)
     }
 
@@ -58,21 +77,29 @@ impl Default for Filters {
 
 /// A printer: a 3200 K lamp whose light is split by Wratten 70, 99 and 98 behind a 2B (\[Gotanda2010\], step 5).
 ///
-/// The default is a printer as built; its other settings show what each part does. With the default tail infrared changes
-/// nothing (dE 0.000) and taking the glass away 0.07 dE in the mean, 0.17 at most; with a held tail and no glass the
-/// calibration has no solution, and cut at 780 nm it has one that differs by up to 3.0.
+/// The default is a printer as built; its other settings show what each part does. With the default tail infrared light changes
+/// nothing that an eye sees; with a held tail and no glass the calibration has no solution. docs/talk.md has the figures.
+///
+/// ```
+/// use onelight_printing::{HeatGlass, Printer};
+/// let bare = Printer { glass: HeatGlass::None, ..Printer::default() };
+/// // The red beam's filter opens again in the infrared, which is what the glass is for.
+/// let at_900_nm = |printer: Printer| Ok::<_, onelight_printing::Error>(printer.beams()?.red.at(900.0));
+/// assert!(at_900_nm(bare)? > at_900_nm(Printer::default())?);
+/// # Ok::<(), onelight_printing::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Printer {
-    /// Three beams, or one.
+    /// Three beams behind separation filters, or one white beam.
     pub light: PrinterLight,
-    /// The gelatin filters in place.
+    /// The gelatin filters that are in place.
     pub filters: Filters,
     /// Neutral density in the red, green and blue beam: what makes equal lights a good first guess. An exact calibration
     /// takes it out again; one that starts from equal lights and stops early does not.
     pub beam_density: PerLayer<f64>,
-    /// Whether infrared takes part.
+    /// Whether infrared light takes part in printing.
     pub infrared: Infrared,
-    /// The glass that should keep it away.
+    /// The glass that should keep infrared light from the film.
     pub glass: HeatGlass,
     /// How the print's red layer goes on beyond its published sensitivity.
     pub red_tail: Tail,
@@ -116,7 +143,8 @@ impl Printer {
         separations.zip_map(self.beam_density, |filter, grey| (filter, grey)).try_map(|(filter, grey), _| {
             let mut density = SpectralDistribution::from_fn(shape, |_| grey)?.stacked_on(&self.glass.density(shape)?);
             let separation = (self.light == PrinterLight::Separations).then_some(filter);
-            for filter in separation.into_iter().chain([Wratten::No2B]).filter(|filter| self.filters.hold(*filter)) {
+            for filter in separation.into_iter().chain([Wratten::No2B]).filter(|filter| self.filters.contains(*filter))
+            {
                 density = density.stacked_on(&filter.density(shape)?);
             }
             Ok(lamp.through(&density.transmittance()))
@@ -124,7 +152,15 @@ impl Printer {
     }
 }
 
-/// Strength of the three beams: what a printing lab sets in points, here as factors on [`Printer::beams`].
+/// Strength of the red, green and blue beam: what a printing lab sets in points, here as factors on [`Printer::beams`], above 0.
+///
+/// ```
+/// use onelight_film::PerLayer;
+/// use onelight_printing::PrinterLights;
+/// // Twelve points are a stop.
+/// let brighter = PrinterLights(PerLayer::all(100.0)).offset(PerLayer { red: 12.0, green: 0.0, blue: 0.0 });
+/// assert!((brighter.0.red - 200.0).abs() < 1.0 && brighter.0.green == 100.0);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PrinterLights(pub PerLayer<f64>);
 

@@ -5,20 +5,25 @@ use onelight_spectra::{
     Chromaticity, Kelvin, Observer, RgbSpace, SpectralDistribution, SpectralShape, black_body, xenon_lamp,
 };
 
-use crate::duplication::{SpectralRow, transmitted};
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
+use crate::spectral_row::{SpectralRow, transmitted};
 
-/// The light that a print or a reversal film is seen by.
+/// The light that a print or a reversal film is seen by. docs/talk.md says how far pictures differ by them.
+///
+/// ```
+/// use onelight_printing::Projector;
+/// assert_eq!(Projector::default(), Projector::Display);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Projector {
     /// The 6500 K black body: what a display shows as white.
     #[default]
     Display,
-    /// A theatre's 5500 K; the eye takes the bare lamp for white: dE 0.3 to 0.4 in the mean.
+    /// A theatre's 5500 K; the eye takes the bare lamp for white.
     Theatre,
-    /// A theatre's 5500 K seen next to a 6500 K display: everything looks warm, dE 3.6 in the mean.
+    /// A theatre's 5500 K seen next to a 6500 K display: everything looks warm.
     TheatreUnadapted,
-    /// A theatre's xenon lamp as measured, lines and all; the eye takes the bare lamp for white: dE 0.4 in the mean.
+    /// A theatre's xenon lamp as measured, lines and all; the eye takes the bare lamp for white.
     Xenon,
 }
 
@@ -34,6 +39,25 @@ impl Projector {
 
 /// A film on the screen: steps 6 and 7 of \[Gotanda2010\]. Amounts of dye to spectrum, XYZ (Y of the bare lamp is 1) and
 /// display-linear RGB, which may be negative outside the display's gamut.
+///
+/// ```
+/// use onelight_film::{DyeAmount, PerLayer, SheetText, Stock};
+/// use onelight_printing::{Projection, Projector};
+/// use onelight_spectra::{RgbSpace, SpectralShape};
+/// # fn read(id: &str) -> Result<Stock, Box<dyn std::error::Error>> {
+/// #     let f = onelight_stocks::find(id).ok_or("no such stock")?;
+/// #     Ok(Stock::parse(&SheetText { id: f.id, stock_toml: f.stock_toml, sensitivity_csv: f.sensitivity_csv,
+/// #         characteristic_csv: f.characteristic_csv, dye_density_csv: f.dye_density_csv })?)
+/// # }
+/// let print = read("kodak-2383")?;
+/// let projection = Projection::new(print.dyes_on(SpectralShape::VISIBLE)?, Projector::Display, &RgbSpace::SRGB)?;
+/// // The dyes that look grey at density 0.7, and what the display shows of them.
+/// let grey = projection.neutral_amounts(0.7, print.id())?;
+/// assert!(projection.rgb(grey).iter().all(|v| (v - 10f64.powf(-0.7)).abs() < 1e-9));
+/// let red = projection.rgb(PerLayer { red: DyeAmount(0.0), ..grey });
+/// assert!(red[0] > 3.0 * red[1], "without its cyan it is red: {red:?}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Projection {
     dyes: Dyes,
@@ -56,7 +80,7 @@ impl Projection {
     pub fn new(dyes: Dyes, projector: Projector, output: &RgbSpace) -> Result<Self, Error> {
         let shape = SpectralShape::VISIBLE;
         if dyes.shape() != shape {
-            return Err(Kind::Grid { found: dyes.shape() }.into());
+            return Err(ErrorKind::Grid { found: dyes.shape() }.into());
         }
         let observer = Observer::cie_1931();
         let lamp = projector.lamp(shape);
@@ -90,8 +114,8 @@ impl Projection {
 
     /// Tristimulus values; Y of the bare lamp is 1.
     #[must_use]
-    pub fn xyz(&self, amounts: PerLayer<DyeAmount>) -> Vector3<f64> {
-        Vector3::from(transmitted(&self.rows, amounts.map(|a| a.0).to_array()))
+    pub fn xyz(&self, amounts: PerLayer<DyeAmount>) -> [f64; 3] {
+        transmitted(&self.rows, amounts.map(|a| a.0).to_array())
     }
 
     /// Wavelength by wavelength, by 1 nm: the sums are the tristimulus values.
@@ -102,8 +126,8 @@ impl Projection {
 
     /// Display-linear RGB of tristimulus values.
     #[must_use]
-    pub fn rgb_of(&self, xyz: &Vector3<f64>) -> [f64; 3] {
-        (self.to_rgb * xyz).data.0[0]
+    pub fn rgb_of(&self, xyz: [f64; 3]) -> [f64; 3] {
+        (self.to_rgb * Vector3::from(xyz)).into()
     }
 
     /// The matrix from tristimulus values to display-linear RGB.
@@ -115,13 +139,13 @@ impl Projection {
     /// Display-linear RGB; the bare lamp is (1, 1, 1) unless the projector is unadapted.
     #[must_use]
     pub fn rgb(&self, amounts: PerLayer<DyeAmount>) -> [f64; 3] {
-        self.rgb_of(&self.xyz(amounts))
+        self.rgb_of(self.xyz(amounts))
     }
 
     /// Amounts that look like the bare lamp behind a grey filter of `density`; `stock` is named if there are none.
     ///
     /// # Errors
-    /// If no amounts do.
+    /// If no amounts of the dyes give that light.
     pub fn neutral_amounts(&self, density: f64, stock: &str) -> Result<PerLayer<DyeAmount>, Error> {
         let target = self.lamp_xyz * 10f64.powf(-density);
         let mut amounts = Vector3::repeat(density);
@@ -134,7 +158,7 @@ impl Projection {
             let Some(step) = slope.lu().solve(&miss) else { break };
             amounts -= step * (0.5 / step.amax()).min(1.0);
         }
-        Err(Kind::NoAmounts { stock: stock.to_owned(), density }.into())
+        Err(ErrorKind::NoAmounts { stock: stock.to_owned(), density }.into())
     }
 
     fn xyz_and_slope(&self, amounts: Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {

@@ -1,5 +1,5 @@
 use crate::distribution::{SpectralDistribution, quantity::Power};
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::shape::SpectralShape;
 
 /// Second radiation constant hc/k in nm K, from the exact SI constants.
@@ -26,7 +26,7 @@ impl Kelvin {
     /// The light of a cinema screen.
     pub const THEATRE: Self = Self(5500.0);
 
-    /// A temperature in kelvin.
+    /// A colour temperature of so many kelvin.
     ///
     /// # Errors
     /// Outside 500 K to 100000 K.
@@ -34,11 +34,11 @@ impl Kelvin {
         if (500.0..=100_000.0).contains(&kelvin) {
             Ok(Self(kelvin))
         } else {
-            Err(Kind::Temperature { found: kelvin }.into())
+            Err(ErrorKind::Temperature { found: kelvin }.into())
         }
     }
 
-    /// The number of kelvin.
+    /// The temperature as a number of kelvin, 500 to 100000.
     #[must_use]
     pub fn value(self) -> f64 {
         self.0
@@ -63,6 +63,13 @@ pub fn planck_radiance(temperature: Kelvin, wavelength_nm: f64) -> f64 {
 }
 
 /// Relative power of a black body, 1.0 at 560 nm.
+///
+/// ```
+/// use onelight_spectra::{Kelvin, SpectralShape, black_body};
+/// let lamp = black_body(Kelvin::TUNGSTEN, SpectralShape::VISIBLE);
+/// assert_eq!(lamp.at(560.0), Some(1.0));
+/// assert!(lamp.at(700.0) > Some(1.6), "reddish light");
+/// ```
 #[must_use]
 pub fn black_body(temperature: Kelvin, shape: SpectralShape) -> SpectralDistribution<Power> {
     let reference = planck_radiance(temperature, 560.0);

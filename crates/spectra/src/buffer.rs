@@ -25,10 +25,10 @@ pub enum BufferFormat {
 }
 
 impl BufferFormat {
-    /// All of them.
+    /// The five formats, from the fewest bits to the most.
     pub const ALL: [Self; 5] = [Self::Unorm8, Self::Unorm8Srgb, Self::Float7e3, Self::R11G11B10, Self::Half];
 
-    /// Its name.
+    /// Its name as graphics programs write it, such as `unorm8-srgb`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {

@@ -1,15 +1,22 @@
 use std::sync::OnceLock;
 
+use crate::built_in::BuiltInTable;
 use crate::distribution::{SpectralDistribution, quantity::Reflectance};
 use crate::error::Error;
 use crate::shape::SpectralShape;
-use crate::table::NumberTable;
-use crate::tabulated::{Outside, linear};
+use crate::tabulated::Extrapolation;
 
-/// A patch of the ColorChecker 24.
+/// A patch of the ColorChecker 24, from [`color_checker`].
+///
+/// ```
+/// let chart = onelight_spectra::color_checker();
+/// let grey = chart.iter().find(|patch| patch.name == "neutral 5").ok_or("no such patch")?;
+/// assert!((grey.reflectance.at(550.0).ok_or("beyond the table")? - 0.19).abs() < 0.01);
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Patch {
-    /// Its name, such as `dark skin`.
+    /// The name printed on the chart, in lower case: `dark skin`, `neutral 6.5`.
     pub name: String,
     /// Reflectance on 380..780 nm by 1 nm.
     pub reflectance: SpectralDistribution<Reflectance>,
@@ -30,12 +37,12 @@ pub fn color_checker() -> &'static [Patch] {
 }
 
 fn read() -> Result<Vec<Patch>, Error> {
-    let table = NumberTable::parse("colorchecker24.csv", include_str!("../data/colorchecker24.csv"))?;
-    let patch = |column: &String| {
-        let nodes = table.nodes("wavelength_nm", column)?;
-        Ok(Patch { name: name(column), reflectance: linear(&nodes, SpectralShape::VISIBLE, Outside::Held)? })
+    let table = BuiltInTable::parse("colorchecker24.csv", include_str!("../data/colorchecker24.csv"))?;
+    let patch = |column: &&str| {
+        let reflectance = table.points(column)?.spectrum(SpectralShape::VISIBLE, Extrapolation::Held)?;
+        Ok(Patch { name: name(column), reflectance })
     };
-    table.names()[1..].iter().map(patch).collect()
+    table.value_names().iter().map(patch).collect()
 }
 
 /// `19_white_9p5_p05_D` is `white 9.5`: number in the chart, name, Munsell value, density.

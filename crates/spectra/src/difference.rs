@@ -34,21 +34,27 @@ impl DisplayDifference {
 
     /// CIELAB of a display-linear RGB, clipped to [0, 1]; NaN counts as 0.
     #[must_use]
-    pub fn lab(&self, rgb: [f64; 3]) -> [f64; 3] {
-        let clipped = rgb.map(|v| if v.is_nan() { 0.0 } else { v.clamp(0.0, 1.0) });
+    pub fn lab(&self, display_linear: [f64; 3]) -> [f64; 3] {
+        let clipped = display_linear.map(|v| if v.is_nan() { 0.0 } else { v.clamp(0.0, 1.0) });
         let xyz = self.relative * Vector3::from(clipped);
         let [fx, fy, fz] = [lab_root(xyz.x), lab_root(xyz.y), lab_root(xyz.z)];
         [116.0 * fy - 16.0, 500.0 * (fx - fy), 200.0 * (fy - fz)]
     }
 
-    /// CIEDE2000 between two display-linear RGB values.
+    /// CIEDE2000 between two display-linear RGB values; coded ones must be decoded before
+    /// ([`TransferCurve::decode`](crate::TransferCurve::decode)).
     #[must_use]
     pub fn between(&self, a: [f64; 3], b: [f64; 3]) -> f64 {
         ciede2000(self.lab(a), self.lab(b))
     }
 }
 
-/// CIEDE2000 between two CIELAB colours under one white, all weights 1 (\[CIE142\], \[Sharma2005\]).
+/// CIEDE2000 between two CIELAB colours under one white, all weights 1 (\[CIE142\], \[Sharma2005\]). 1 is about what an eye just sees side by side.
+///
+/// ```
+/// let difference = onelight_spectra::ciede2000([50.0, 2.5, 0.0], [73.0, 25.0, -18.0]);
+/// assert!((difference - 27.1492).abs() < 5e-5, "a pair of [Sharma2005]: {difference}");
+/// ```
 #[must_use]
 pub fn ciede2000(a: [f64; 3], b: [f64; 3]) -> f64 {
     let lab = |[l, a, b]: [f64; 3]| Lab::<D65, f64>::new(l, a, b);

@@ -1,16 +1,22 @@
 use std::marker::PhantomData;
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
+use crate::linear::linear_at;
 use crate::shape::SpectralShape;
-use crate::tabulated::linear_at;
 
-/// What the numbers of a [`SpectralDistribution`] mean. Implemented by the markers in [`quantity`].
+/// What the numbers of a [`SpectralDistribution`] mean, and which are allowed. Implemented by the markers in [`quantity`].
+///
+/// ```
+/// use onelight_spectra::{Quantity, quantity::Reflectance};
+/// assert!(Reflectance::allows(0.5) && !Reflectance::allows(1.5));
+/// assert_eq!(Reflectance::ALLOWED, "0 to 1");
+/// ```
 pub trait Quantity: Copy + private::Sealed {
-    /// Name used in messages.
+    /// Name of the quantity in messages, such as `radiant power`.
     const NAME: &'static str;
     /// The values allowed, in words.
     const ALLOWED: &'static str;
-    /// Whether `value` is allowed.
+    /// Whether a distribution of this quantity may hold `value`.
     fn allows(value: f64) -> bool;
 }
 
@@ -21,6 +27,12 @@ mod private {
 macro_rules! quantities {
     ($($(#[$doc:meta])* $name:ident: $text:literal, $allowed:literal, $test:expr;)*) => {
         /// The meanings a [`SpectralDistribution`] can have.
+        ///
+        /// ```
+        /// use onelight_spectra::{SpectralDistribution, SpectralShape, quantity::Reflectance};
+        /// let error = SpectralDistribution::<Reflectance>::from_fn(SpectralShape::VISIBLE, |nm| nm / 779.0).unwrap_err();
+        /// assert!(error.to_string().ends_with("expected 0 to 1"));
+        /// ```
         pub mod quantity {
             $($(#[$doc])* #[derive(Debug, Clone, Copy, PartialEq, Eq)] pub enum $name {})*
         }
@@ -36,6 +48,9 @@ macro_rules! quantities {
 quantities! {
     /// Radiant power per nm: W/nm, W/(m^2 nm), W/(m^2 sr nm) or relative to the value at 560 nm.
     Power: "radiant power", "a finite value >= 0", |v| v.is_finite() && v >= 0.0;
+    /// As [`Power`], but a value may be negative: a difference of two lights, or what a linear formula gives for a colour that
+    /// no light has.
+    SignedPower: "signed radiant power", "a finite value", |v| v.is_finite();
     /// Fraction of light reflected, 0 to 1.
     Reflectance: "reflectance", "0 to 1", |v| (0.0..=1.0).contains(&v);
     /// Fraction of light transmitted, 0 to 1 (a density a little below 0 may lift it above 1).
@@ -45,6 +60,21 @@ quantities! {
     /// Response of a receiver (eye, emulsion, densitometer) per unit of power.
     Responsivity: "responsivity", "a finite value >= 0", |v| v.is_finite() && v >= 0.0;
 }
+
+/// What a receiver answers to: light, or a difference of lights.
+///
+/// ```
+/// use onelight_spectra::{Light, SpectralDistribution, SpectralShape, quantity::{Responsivity, SignedPower}};
+/// fn seen<L: Light>(light: &SpectralDistribution<L>) -> Result<f64, onelight_spectra::Error> {
+///     Ok(light.response(&SpectralDistribution::<Responsivity>::from_fn(light.shape(), |_nm| 1.0)?))
+/// }
+/// let difference = SpectralDistribution::<SignedPower>::from_fn(SpectralShape::VISIBLE, |nm| nm - 580.0)?;
+/// assert!(seen(&difference)?.abs() < 1e-9);
+/// # Ok::<(), onelight_spectra::Error>(())
+/// ```
+pub trait Light: Quantity {}
+impl Light for quantity::Power {}
+impl Light for quantity::SignedPower {}
 
 /// The largest optical density, positive or negative.
 const MAX_DENSITY: f64 = 300.0;
@@ -71,17 +101,17 @@ impl<Q: Quantity> SpectralDistribution<Q> {
     /// If the count is not `shape.len()` or a value is not allowed for `Q`.
     pub fn new(shape: SpectralShape, values: Vec<f64>) -> Result<Self, Error> {
         if values.len() != shape.len() {
-            return Err(Kind::Length { quantity: Q::NAME, found: values.len(), expected: shape.len() }.into());
+            return Err(ErrorKind::Length { quantity: Q::NAME, found: values.len(), expected: shape.len() }.into());
         }
         for (nm, &found) in shape.wavelengths_nm().zip(&values) {
             if !Q::allows(found) {
-                return Err(Kind::Value { quantity: Q::NAME, nm, found, expected: Q::ALLOWED }.into());
+                return Err(ErrorKind::Value { quantity: Q::NAME, nm, found, expected: Q::ALLOWED }.into());
             }
         }
         Ok(Self::trusted(shape, values))
     }
 
-    /// The values of `f(wavelength_nm)`.
+    /// The values that `f` has at each wavelength of the grid, which it gets in nm.
     ///
     /// # Errors
     /// If a value is not allowed for `Q`.
@@ -94,13 +124,13 @@ impl<Q: Quantity> SpectralDistribution<Q> {
         Self { shape, values, quantity: PhantomData }
     }
 
-    /// The wavelength grid.
+    /// The wavelengths that the values belong to.
     #[must_use]
     pub fn shape(&self) -> SpectralShape {
         self.shape
     }
 
-    /// One value per wavelength.
+    /// The values, one for each wavelength of [`SpectralDistribution::shape`], in order.
     #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.values
@@ -139,11 +169,37 @@ impl<Q: Quantity> SpectralDistribution<Q> {
     }
 }
 
+impl<L: Light> SpectralDistribution<L> {
+    /// What a receiver makes of this light: the integral of power times responsivity over nm. Both must share one grid.
+    ///
+    /// # Panics
+    /// If the two distributions are on different grids.
+    #[must_use]
+    pub fn response(&self, receiver: &SpectralDistribution<quantity::Responsivity>) -> f64 {
+        self.zip::<_, quantity::SignedPower>(receiver, |a, b| a * b).integral()
+    }
+}
+
+impl From<SpectralDistribution<quantity::Power>> for SpectralDistribution<quantity::SignedPower> {
+    fn from(light: SpectralDistribution<quantity::Power>) -> Self {
+        Self::trusted(light.shape, light.values)
+    }
+}
+
+/// Fails if a value is negative: then it is not the power of a light.
+impl TryFrom<SpectralDistribution<quantity::SignedPower>> for SpectralDistribution<quantity::Power> {
+    type Error = Error;
+
+    fn try_from(light: SpectralDistribution<quantity::SignedPower>) -> Result<Self, Error> {
+        Self::new(light.shape, light.values)
+    }
+}
+
 impl SpectralDistribution<quantity::Power> {
     /// The light behind a filter. Both must share one grid.
     ///
     /// # Panics
-    /// If the grids differ.
+    /// If the two distributions are on different grids.
     #[must_use]
     pub fn through(&self, filter: &SpectralDistribution<quantity::Transmittance>) -> Self {
         self.zip(filter, |a, b| (a * b).min(f64::MAX))
@@ -152,19 +208,10 @@ impl SpectralDistribution<quantity::Power> {
     /// The light reflected by a surface. Both must share one grid.
     ///
     /// # Panics
-    /// If the grids differ.
+    /// If the two distributions are on different grids.
     #[must_use]
     pub fn reflected_by(&self, surface: &SpectralDistribution<quantity::Reflectance>) -> Self {
         self.zip(surface, |a, b| a * b)
-    }
-
-    /// What a receiver makes of this light: the integral of power times responsivity over nm. Both must share one grid.
-    ///
-    /// # Panics
-    /// If the grids differ.
-    #[must_use]
-    pub fn response(&self, receiver: &SpectralDistribution<quantity::Responsivity>) -> f64 {
-        self.zip::<_, quantity::Power>(receiver, |a, b| a * b).integral()
     }
 
     /// The same light `factor` times as strong. A factor below 0 or NaN counts as 0, and no value becomes infinite.
@@ -185,7 +232,7 @@ impl SpectralDistribution<quantity::OpticalDensity> {
     /// Two layers on one another: densities add, and are held within 300 of 0. Both must share one grid.
     ///
     /// # Panics
-    /// If the grids differ.
+    /// If the two distributions are on different grids.
     #[must_use]
     pub fn stacked_on(&self, other: &Self) -> Self {
         self.zip(other, |a, b| held(a + b))
@@ -205,7 +252,7 @@ fn held(density: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::quantity::{OpticalDensity, Power, Reflectance, Transmittance};
+    use super::quantity::{OpticalDensity, Power, Reflectance, SignedPower, Transmittance};
     use super::*;
     use approx::assert_relative_eq;
 
@@ -222,7 +269,20 @@ mod tests {
     }
 
     #[test]
-    fn the_door_is_guarded() {
+    fn a_difference_of_lights_is_a_light_where_nothing_is_negative() {
+        let shape = SpectralShape::VISIBLE;
+        let signed = |from: f64| SpectralDistribution::<SignedPower>::from_fn(shape, |nm| nm - from).unwrap();
+        let light = SpectralDistribution::<Power>::try_from(signed(380.0)).unwrap();
+        assert_eq!(SpectralDistribution::<SignedPower>::from(light), signed(380.0));
+        let error = SpectralDistribution::<Power>::try_from(signed(400.0)).unwrap_err();
+        assert_eq!(error.to_string(), "radiant power at 380 nm: found -20, expected a finite value >= 0");
+        assert!(SpectralDistribution::<SignedPower>::from_fn(shape, |_| f64::INFINITY).is_err());
+        let eye = SpectralDistribution::from_fn(shape, |_| 1.0).unwrap();
+        assert!((signed(580.0).response(&eye)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn values_that_a_quantity_does_not_allow_are_refused() {
         let shape = SpectralShape::VISIBLE;
         assert!(SpectralDistribution::<Power>::new(shape, vec![1.0; 400]).is_err());
         assert!(SpectralDistribution::<Power>::from_fn(shape, |nm| if nm == 500.0 { f64::NAN } else { 1.0 }).is_err());
@@ -231,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn arithmetic_keeps_what_the_door_promises() {
+    fn arithmetic_keeps_values_that_are_allowed() {
         let shape = SpectralShape::VISIBLE;
         let density = |d: f64| SpectralDistribution::<OpticalDensity>::from_fn(shape, |_| d);
         for d in [300.1, -300.1, f64::NAN, f64::INFINITY] {

@@ -1,37 +1,38 @@
 use std::fmt;
 
 /// What went wrong in this crate: one sentence that says what, where, what was found and what was expected.
+///
+/// ```
+/// use onelight_spectra::Kelvin;
+/// let error = Kelvin::new(0.0).unwrap_err();
+/// assert_eq!(error.to_string(), "colour temperature: found 0 K, expected 500 K to 100000 K");
+/// assert!(error.is_value());
+/// ```
 #[derive(Debug, Clone, PartialEq)]
-pub struct Error(Kind);
+pub struct Error(ErrorKind);
 
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Kind {
+pub(crate) enum ErrorKind {
     Shape { first_nm: u16, last_nm: u16, step_nm: u16 },
     Length { quantity: &'static str, found: usize, expected: usize },
     Value { quantity: &'static str, nm: f64, found: f64, expected: &'static str },
     Nodes { problem: String },
-    Table { source: String, line: u64, problem: String },
+    Table { source: &'static str, line: usize, problem: String },
     Chromaticity { what: &'static str, x: f64, y: f64 },
     Temperature { found: f64 },
     Basis { problem: String },
 }
 
 impl Error {
-    /// Whether the error lies in a text table, at a line the message names.
-    #[must_use]
-    pub fn is_table(&self) -> bool {
-        matches!(self.0, Kind::Table { .. })
-    }
-
-    /// Whether a value lay outside what its quantity allows.
+    /// Whether a number lay outside what its quantity allows: a negative power, a temperature of 0 K, a white with y = 0.
     #[must_use]
     pub fn is_value(&self) -> bool {
-        matches!(self.0, Kind::Value { .. } | Kind::Chromaticity { .. } | Kind::Temperature { .. })
+        matches!(self.0, ErrorKind::Value { .. } | ErrorKind::Chromaticity { .. } | ErrorKind::Temperature { .. })
     }
 }
 
-impl From<Kind> for Error {
-    fn from(kind: Kind) -> Self {
+impl From<ErrorKind> for Error {
+    fn from(kind: ErrorKind) -> Self {
         Self(kind)
     }
 }
@@ -39,28 +40,28 @@ impl From<Kind> for Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
-            Kind::Shape { first_nm, last_nm, step_nm } => write!(
+            ErrorKind::Shape { first_nm, last_nm, step_nm } => write!(
                 f,
                 "spectral shape {first_nm}..{last_nm} nm by {step_nm}: expected first < last and a step that divides the range"
             ),
-            Kind::Length { quantity, found, expected } => {
+            ErrorKind::Length { quantity, found, expected } => {
                 write!(f, "{quantity}: {found} values, expected one per wavelength: {expected}")
             }
-            Kind::Value { quantity, nm, found, expected } => {
+            ErrorKind::Value { quantity, nm, found, expected } => {
                 write!(f, "{quantity} at {nm} nm: found {found}, expected {expected}")
             }
-            Kind::Nodes { problem } => write!(f, "interpolation nodes: {problem}"),
-            Kind::Table { source, line, problem } => write!(f, "{source}:{line}: {problem}"),
-            Kind::Chromaticity { what, x, y } => {
+            ErrorKind::Nodes { problem } => write!(f, "interpolation nodes: {problem}"),
+            ErrorKind::Table { source, line, problem } => write!(f, "{source}:{line}: {problem}"),
+            ErrorKind::Chromaticity { what, x, y } => {
                 write!(
                     f,
                     "{what}: found xy ({x}, {y}), expected finite values with y > 0 and three primaries that span a triangle"
                 )
             }
-            Kind::Temperature { found } => {
+            ErrorKind::Temperature { found } => {
                 write!(f, "colour temperature: found {found} K, expected 500 K to 100000 K")
             }
-            Kind::Basis { problem } => write!(f, "reconstruction basis: {problem}"),
+            ErrorKind::Basis { problem } => write!(f, "reconstruction basis: {problem}"),
         }
     }
 }

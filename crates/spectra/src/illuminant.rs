@@ -1,10 +1,16 @@
+use crate::built_in::BuiltInTable;
 use crate::distribution::{SpectralDistribution, quantity::Power};
-use crate::error::Error;
+use crate::error::{Error, ErrorKind};
 use crate::shape::SpectralShape;
-use crate::table::NumberTable;
-use crate::tabulated::{Outside, linear};
+use crate::tabulated::Extrapolation;
 
 /// A light tabulated by the CIE (\[CIE015\]).
+///
+/// ```
+/// use onelight_spectra::{Illuminant, SpectralShape, illuminant};
+/// let [tungsten, daylight] = [Illuminant::A, Illuminant::D65].map(|which| illuminant(which, SpectralShape::VISIBLE));
+/// assert!(tungsten.at(450.0) < daylight.at(450.0) && tungsten.at(700.0) > daylight.at(700.0));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Illuminant {
     /// Incandescent light, about 2856 K.
@@ -18,7 +24,7 @@ pub enum Illuminant {
 }
 
 impl Illuminant {
-    /// All of them.
+    /// The four illuminants, from the warmest to the coolest.
     pub const ALL: [Self; 4] = [Self::A, Self::D50, Self::D55, Self::D65];
 
     fn table(self) -> (&'static str, &'static str) {
@@ -33,6 +39,12 @@ impl Illuminant {
 
 /// Relative power of a CIE illuminant, 1.0 at 560 nm; 5 nm table, linear between its rows as the CIE prescribes, end
 /// values held beyond 300..780 nm.
+///
+/// ```
+/// use onelight_spectra::{Illuminant, SpectralShape, illuminant};
+/// let daylight = illuminant(Illuminant::D50, SpectralShape::VISIBLE);
+/// assert!((daylight.values()[0] - 0.245).abs() < 0.001, "at 380 nm");
+/// ```
 #[must_use]
 #[expect(clippy::expect_used, reason = "the tables are compiled in and a test reads them all")]
 pub fn illuminant(which: Illuminant, shape: SpectralShape) -> SpectralDistribution<Power> {
@@ -41,14 +53,19 @@ pub fn illuminant(which: Illuminant, shape: SpectralShape) -> SpectralDistributi
 
 fn read(which: Illuminant, shape: SpectralShape) -> Result<SpectralDistribution<Power>, Error> {
     let (source, text) = which.table();
-    let mut nodes = NumberTable::parse(source, text)?.nodes("wavelength_nm", "relative_power")?;
+    let mut points = BuiltInTable::parse(source, text)?.points("relative_power")?;
     // The tables are 100 at 560 nm.
-    nodes.y.iter_mut().for_each(|v| *v /= 100.0);
-    linear(&nodes, shape, Outside::Held)
+    points.y.iter_mut().for_each(|v| *v /= 100.0);
+    points.spectrum(shape, Extrapolation::Held)
 }
 
 /// Relative power of a cinema's xenon projector, 1.0 at 560 nm: a Kinoton 75P as measured, about 6340 K; 2 nm table, linear
 /// between its rows, end values held beyond 380..780 nm.
+///
+/// ```
+/// use onelight_spectra::{SpectralShape, xenon_lamp};
+/// assert_eq!(xenon_lamp(SpectralShape::VISIBLE).at(560.0), Some(1.0));
+/// ```
 #[must_use]
 #[expect(clippy::expect_used, reason = "the table is compiled in and a test reads it")]
 pub fn xenon_lamp(shape: SpectralShape) -> SpectralDistribution<Power> {
@@ -56,12 +73,12 @@ pub fn xenon_lamp(shape: SpectralShape) -> SpectralDistribution<Power> {
 }
 
 fn read_xenon(shape: SpectralShape) -> Result<SpectralDistribution<Power>, Error> {
-    let text = include_str!("../data/xenon_projector_kinoton_75p.csv");
-    let mut nodes =
-        NumberTable::parse("xenon_projector_kinoton_75p.csv", text)?.nodes("wavelength_nm", "relative_power")?;
-    let reference = nodes.at(560.0).unwrap_or(1.0);
-    nodes.y.iter_mut().for_each(|v| *v /= reference);
-    linear(&nodes, shape, Outside::Held)
+    let (source, text) = ("xenon_projector_kinoton_75p.csv", include_str!("../data/xenon_projector_kinoton_75p.csv"));
+    let mut points = BuiltInTable::parse(source, text)?.points("relative_power")?;
+    let missing = || ErrorKind::Table { source, line: 1, problem: "no value at 560 nm".to_owned() };
+    let reference = points.at(560.0).ok_or_else(missing)?;
+    points.y.iter_mut().for_each(|v| *v /= reference);
+    points.spectrum(shape, Extrapolation::Held)
 }
 
 #[cfg(test)]

@@ -7,7 +7,8 @@
 //! - [`BufferFormat`]: what a low-precision frame buffer keeps of a picture
 //! - [`Basis`]: a spectrum for an RGB value ([`Reconstruction`] says which)
 //! - [`lux_to_w_per_m2`], [`lamp_rgb_w_per_m2`]: photometric to radiometric quantities
-//! - [`DisplayDifference`]: CIEDE2000 between two pictures
+//! - [`DisplayDifference`]: CIEDE2000 between two pictures (feature `ciede2000`, on by default)
+//! - [`TablePoints`], [`Pchip`]: measured curves, linear or monotone cubic between their points
 //!
 //! ```
 //! use onelight_spectra::{Basis, Observer, Reconstruction, SpectralShape};
@@ -15,10 +16,18 @@
 //! // The light of a scene value (0.18, 0.1, 0.02), and the colour an eye sees in it.
 //! let basis = Basis::new(Reconstruction::Smooth)?;
 //! let light = basis.spectrum([0.18, 0.1, 0.02]);
-//! let rgb = basis.rgb_of(&light);
-//! assert!((rgb.x - 0.18).abs() < 1e-9 && (rgb.z - 0.02).abs() < 1e-9);
+//! let [red, _, blue] = basis.rgb_of(&light);
+//! assert!((red - 0.18).abs() < 1e-9 && (blue - 0.02).abs() < 1e-9);
 //! # Ok::<(), onelight_spectra::Error>(())
 //! ```
+//!
+//! # Which RGB
+//! Three kinds of RGB meet in a picture's way, all of them `[f64; 3]`, and each name says which it is:
+//!
+//! - scene-linear: light of the scene, a grey card at [`MID_GREY`], no upper end. [`Basis`] takes it, about the 6500 K white.
+//! - display-linear: light of a screen, whose white is 1. [`DisplayDifference`] takes it.
+//! - coded: what files and cables carry. [`CodedSpace`], [`SceneCurve`] and [`TransferCurve`] `encode` linear values and `decode`
+//!   coded ones.
 //!
 //! # Out of scope
 //! Film, printers, look-up tables and pictures; chromatic adaptation other than "white is white"; fluorescence.
@@ -26,26 +35,30 @@
 
 mod blackbody;
 mod buffer;
+mod built_in;
 mod color_checker;
+#[cfg(feature = "ciede2000")]
 mod difference;
 mod distribution;
 mod error;
 mod illuminant;
+mod linear;
 mod observer;
 mod pchip;
 mod photometry;
 mod reconstruction;
 mod rgb;
+mod scene_value;
 mod shape;
-mod table;
 mod tabulated;
 mod transfer;
 
 pub use blackbody::{Kelvin, black_body, planck_radiance};
 pub use buffer::BufferFormat;
 pub use color_checker::{Patch, color_checker};
+#[cfg(feature = "ciede2000")]
 pub use difference::{DisplayDifference, ciede2000};
-pub use distribution::{Quantity, SpectralDistribution, quantity};
+pub use distribution::{Light, Quantity, SpectralDistribution, quantity};
 pub use error::Error;
 pub use illuminant::{Illuminant, illuminant, xenon_lamp};
 pub use nalgebra;
@@ -54,7 +67,12 @@ pub use pchip::Pchip;
 pub use photometry::{LUMENS_PER_WATT_555_NM, lamp_rgb_w_per_m2, lumen_to_w, lux_to_w_per_m2, white_lumens_per_watt};
 pub use reconstruction::{Basis, Reconstruction};
 pub use rgb::{Chromaticity, RgbSpace};
+pub use scene_value::{MID_GREY, SCENE_MAX, finite};
 pub use shape::SpectralShape;
-pub use table::{MAX_COLUMNS, MAX_ROWS, Nodes, NumberTable};
-pub use tabulated::{Outside, linear};
+pub use tabulated::{Extrapolation, TablePoints};
 pub use transfer::{CameraLog, CodedSpace, SceneCurve, TransferCurve};
+
+/// The examples of README.md, compiled and run with the tests.
+#[cfg(all(doctest, feature = "ciede2000"))]
+#[doc = include_str!("../README.md")]
+struct Readme;

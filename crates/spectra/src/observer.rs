@@ -2,11 +2,11 @@ use std::sync::OnceLock;
 
 use nalgebra::Vector3;
 
-use crate::distribution::{SpectralDistribution, quantity::Power, quantity::Responsivity};
+use crate::built_in::BuiltInTable;
+use crate::distribution::{Light, SpectralDistribution, quantity::Responsivity};
 use crate::error::Error;
 use crate::shape::SpectralShape;
-use crate::table::NumberTable;
-use crate::tabulated::{Outside, linear};
+use crate::tabulated::Extrapolation;
 
 const TABLE: &str = include_str!("../data/cie_1931_2deg_1nm.csv");
 
@@ -32,7 +32,7 @@ impl Observer {
         OBSERVER.get_or_init(|| Self::on(SpectralShape::VISIBLE))
     }
 
-    /// The observer on another grid.
+    /// The observer on the grid of the light to be seen.
     #[must_use]
     #[expect(clippy::expect_used, reason = "the table is compiled in and a test reads it")]
     pub fn on(shape: SpectralShape) -> Self {
@@ -40,8 +40,8 @@ impl Observer {
     }
 
     fn read(shape: SpectralShape) -> Result<Self, Error> {
-        let table = NumberTable::parse("cie_1931_2deg_1nm.csv", TABLE)?;
-        let column = |name: &str| linear(&table.nodes("wavelength_nm", name)?, shape, Outside::Zero);
+        let table = BuiltInTable::parse("cie_1931_2deg_1nm.csv", TABLE)?;
+        let column = |name: &str| table.points(name)?.spectrum(shape, Extrapolation::Zero);
         Ok(Self { matching: [column("x_bar")?, column("y_bar")?, column("z_bar")?] })
     }
 
@@ -56,7 +56,7 @@ impl Observer {
     /// # Panics
     /// If the light is not on the grid of the observer.
     #[must_use]
-    pub fn xyz(&self, light: &SpectralDistribution<Power>) -> Vector3<f64> {
+    pub fn xyz<L: Light>(&self, light: &SpectralDistribution<L>) -> Vector3<f64> {
         let [x, y, z] = &self.matching;
         Vector3::new(light.response(x), light.response(y), light.response(z))
     }

@@ -1,4 +1,6 @@
-use crate::error::{Error, Kind};
+use std::ops::RangeInclusive;
+
+use crate::error::{Error, ErrorKind};
 
 /// Monotone piecewise cubic through given nodes: no overshoot between them (\[FritschCarlson1980\], slopes of \[FritschButland1984\]).
 ///
@@ -18,13 +20,13 @@ pub struct Pchip {
 }
 
 impl Pchip {
-    /// Through `(x[i], y[i])`.
+    /// The curve through the points `(x[i], y[i])`.
     ///
     /// # Errors
     /// If there are fewer than two nodes, the counts differ, a value is not finite, x does not increase, or two nodes lie so far or so
     /// steeply apart that the cubic between them is beyond float64.
     pub fn new(x: Vec<f64>, y: Vec<f64>) -> Result<Self, Error> {
-        let refuse = |problem: String| Err(Kind::Nodes { problem }.into());
+        let refuse = |problem: String| Err(ErrorKind::Nodes { problem }.into());
         if x.len() != y.len() || x.len() < 2 {
             return refuse(format!(
                 "{} abscissae and {} ordinates, expected as many of both and at least 2",
@@ -56,22 +58,22 @@ impl Pchip {
         Ok(Self { x, y, slope })
     }
 
-    /// The abscissae.
+    /// The abscissae of the nodes, increasing.
     #[must_use]
     pub fn x(&self) -> &[f64] {
         &self.x
     }
 
-    /// The ordinates.
+    /// The ordinates of the nodes.
     #[must_use]
     pub fn y(&self) -> &[f64] {
         &self.y
     }
 
-    /// First and last abscissa.
+    /// From the first abscissa to the last.
     #[must_use]
-    pub fn range(&self) -> (f64, f64) {
-        (self.x[0], self.x[self.x.len() - 1])
+    pub fn range(&self) -> RangeInclusive<f64> {
+        self.x[0]..=self.x[self.x.len() - 1]
     }
 
     /// The value at `x`; outside the nodes the value of the nearest one. NaN gives the first.
@@ -88,8 +90,7 @@ impl Pchip {
     /// The slope at `x`; 0 outside the nodes.
     #[must_use]
     pub fn slope_at(&self, x: f64) -> f64 {
-        let (first, last) = self.range();
-        if !(first..=last).contains(&x) {
+        if !self.range().contains(&x) {
             return 0.0;
         }
         let (i, t, h) = self.locate(x);
@@ -118,7 +119,7 @@ impl Pchip {
 
     /// Interval, position in it from 0 to 1, and its width.
     fn locate(&self, x: f64) -> (usize, f64, f64) {
-        let (first, last) = self.range();
+        let (first, last) = self.range().into_inner();
         let x = x.max(first).min(last);
         let i = self.x.partition_point(|&node| node <= x).clamp(1, self.x.len() - 1) - 1;
         let h = self.x[i + 1] - self.x[i];

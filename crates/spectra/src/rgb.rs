@@ -3,16 +3,24 @@ use std::sync::OnceLock;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::blackbody::{Kelvin, black_body};
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::observer::Observer;
 use crate::shape::SpectralShape;
 
-/// A CIE 1931 xy chromaticity.
+/// A CIE 1931 xy chromaticity: a colour without its brightness.
+///
+/// ```
+/// use onelight_spectra::{Chromaticity, Illuminant, Observer, SpectralShape, illuminant};
+/// let daylight = illuminant(Illuminant::D65, SpectralShape::VISIBLE);
+/// let found = Chromaticity::of(&Observer::cie_1931().xyz(&daylight));
+/// // The standards round it to four digits.
+/// assert!((found.x - Chromaticity::D65.x).abs() < 1e-4 && (found.y - Chromaticity::D65.y).abs() < 1e-4);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Chromaticity {
-    /// x
+    /// The share of X in X + Y + Z, 0 to 1 for colours that exist.
     pub x: f64,
-    /// y
+    /// The share of Y in X + Y + Z, above 0 to 1 for colours that exist.
     pub y: f64,
 }
 
@@ -59,18 +67,18 @@ impl Chromaticity {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RgbSpace {
-    /// Red, green and blue.
+    /// The chromaticities of red, green and blue.
     pub primaries: [Chromaticity; 3],
     /// What (1, 1, 1) looks like.
     pub white: Chromaticity,
 }
 
 impl RgbSpace {
-    /// sRGB and BT.709 (\[IEC61966-2-1\]).
+    /// The primaries of sRGB and BT.709 (\[IEC61966-2-1\]).
     pub const SRGB: Self = Self::new([(0.64, 0.33), (0.30, 0.60), (0.15, 0.06)], Chromaticity::D65);
     /// Display P3 (\[EG432-1\] primaries with D65).
     pub const DISPLAY_P3: Self = Self::new([(0.680, 0.320), (0.265, 0.690), (0.150, 0.060)], Chromaticity::D65);
-    /// BT.2020 (\[BT2020\]).
+    /// BT.2020, the wide gamut of television (\[BT2020\]).
     pub const REC2020: Self = Self::new([(0.708, 0.292), (0.170, 0.797), (0.131, 0.046)], Chromaticity::D65);
     /// ACEScg, the AP1 primaries (\[S2014-004\]).
     pub const ACESCG: Self = Self::new([(0.713, 0.293), (0.165, 0.830), (0.128, 0.044)], Chromaticity::ACES);
@@ -79,11 +87,11 @@ impl RgbSpace {
     /// ARRI Wide Gamut 4, the primaries of LogC4 (\[ArriLogC4\]).
     pub const ARRI_WIDE_GAMUT_4: Self =
         Self::new([(0.7347, 0.2653), (0.1424, 0.8576), (0.0991, -0.0308)], Chromaticity::D65);
-    /// Sony S-Gamut3 (\[SonySLog3\]).
+    /// Sony S-Gamut3, wider than the Cine variant (\[SonySLog3\]).
     pub const S_GAMUT3: Self = Self::new([(0.730, 0.280), (0.140, 0.855), (0.100, -0.050)], Chromaticity::D65);
-    /// Sony S-Gamut3.Cine (\[SonySLog3\]).
+    /// Sony S-Gamut3.Cine, the one that usually goes with S-Log3 (\[SonySLog3\]).
     pub const S_GAMUT3_CINE: Self = Self::new([(0.766, 0.275), (0.225, 0.800), (0.089, -0.087)], Chromaticity::D65);
-    /// DaVinci Wide Gamut (\[DaVinciIntermediate\]).
+    /// DaVinci Wide Gamut, the working space of DaVinci Intermediate (\[DaVinciIntermediate\]).
     pub const DAVINCI_WIDE_GAMUT: Self =
         Self::new([(0.8000, 0.3130), (0.1682, 0.9877), (0.0790, -0.1155)], Chromaticity::D65);
 
@@ -106,7 +114,7 @@ impl RgbSpace {
     /// # Errors
     /// If the primaries do not span a triangle or a number is not finite.
     pub fn to_xyz(&self) -> Result<Matrix3<f64>, Error> {
-        let refuse = |what, c: Chromaticity| Error::from(Kind::Chromaticity { what, x: c.x, y: c.y });
+        let refuse = |what, c: Chromaticity| Error::from(ErrorKind::Chromaticity { what, x: c.x, y: c.y });
         if !(self.white.x.is_finite() && self.white.y.is_finite() && self.white.y > 0.0) {
             return Err(refuse("white of an RGB space", self.white));
         }
@@ -121,9 +129,9 @@ impl RgbSpace {
     /// XYZ to linear RGB: the inverse of [`RgbSpace::to_xyz`].
     ///
     /// # Errors
-    /// As [`RgbSpace::to_xyz`].
+    /// The same as those of [`RgbSpace::to_xyz`].
     pub fn from_xyz(&self) -> Result<Matrix3<f64>, Error> {
-        let refuse = || Kind::Chromaticity { what: "RGB space", x: self.white.x, y: self.white.y };
+        let refuse = || ErrorKind::Chromaticity { what: "RGB space", x: self.white.x, y: self.white.y };
         self.to_xyz()?.try_inverse().ok_or_else(|| refuse().into())
     }
 
@@ -131,7 +139,7 @@ impl RgbSpace {
     /// the whites of the two. Between the same primaries it is the identity to the last bit.
     ///
     /// # Errors
-    /// As [`RgbSpace::to_xyz`].
+    /// The same as those of [`RgbSpace::to_xyz`].
     pub fn to_about(&self, target: &Self, white: Chromaticity) -> Result<Matrix3<f64>, Error> {
         let (to_xyz, from_xyz) = (self.with_white(white).to_xyz()?, target.with_white(white).from_xyz()?);
         // Not what rounding makes of it: 1e-17 of a channel at 1e30 drowns the other two.

@@ -1,4 +1,4 @@
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 
 /// A uniform wavelength grid in whole nanometres: first, last and step, both ends included.
 ///
@@ -25,7 +25,7 @@ impl SpectralShape {
     /// If `first_nm >= last_nm`, or the step is 0 or does not divide the range.
     pub fn new(first_nm: u16, last_nm: u16, step_nm: u16) -> Result<Self, Error> {
         if first_nm >= last_nm || step_nm == 0 || !(last_nm - first_nm).is_multiple_of(step_nm) {
-            return Err(Kind::Shape { first_nm, last_nm, step_nm }.into());
+            return Err(ErrorKind::Shape { first_nm, last_nm, step_nm }.into());
         }
         Ok(Self { first_nm, last_nm, step_nm })
     }
@@ -37,13 +37,13 @@ impl SpectralShape {
         Self { first_nm: FIRST_NM, last_nm: LAST_NM, step_nm: 1 }
     }
 
-    /// First wavelength in nm.
+    /// The shortest wavelength of the grid in nm.
     #[must_use]
     pub const fn first_nm(self) -> f64 {
         self.first_nm as f64
     }
 
-    /// Last wavelength in nm.
+    /// The longest wavelength of the grid in nm.
     #[must_use]
     pub const fn last_nm(self) -> f64 {
         self.last_nm as f64

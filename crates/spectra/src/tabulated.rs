@@ -1,67 +1,79 @@
 use crate::distribution::{Quantity, SpectralDistribution};
 use crate::error::Error;
+use crate::linear::linear_at;
 use crate::shape::SpectralShape;
-use crate::table::Nodes;
 
-/// What a table says beyond its ends.
+/// How a table of values over wavelength goes on beyond its first and last wavelength.
+///
+/// ```
+/// use onelight_spectra::{Extrapolation, SpectralShape, TablePoints, quantity::Power};
+/// let lamp = TablePoints { x: vec![400.0, 700.0], y: vec![2.0, 5.0] };
+/// let held = lamp.spectrum::<Power>(SpectralShape::VISIBLE, Extrapolation::Held)?;
+/// let zero = lamp.spectrum::<Power>(SpectralShape::VISIBLE, Extrapolation::Zero)?;
+/// assert_eq!((held.at(780.0), zero.at(780.0)), (Some(5.0), Some(0.0)));
+/// # Ok::<(), onelight_spectra::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outside {
-    /// Nothing: 0.
+pub enum Extrapolation {
+    /// As 0: what the table leaves out is taken to be nothing.
     Zero,
-    /// The value of the nearest end.
+    /// As the value at the nearer end.
     Held,
 }
 
-/// Nodes brought to a grid, linear between them (the CIE's rule for its illuminants and colour-matching functions).
+/// Points of a measured or published curve, such as two columns of a table.
 ///
-/// # Errors
-/// If a value is not allowed for `Q`.
-pub fn linear<Q: Quantity>(
-    nodes: &Nodes,
-    shape: SpectralShape,
-    outside: Outside,
-) -> Result<SpectralDistribution<Q>, Error> {
-    let held = |nm: f64| match (nodes.x.first(), &nodes.y[..]) {
-        (Some(&first), [low, ..]) if nm < first => *low,
-        (_, [.., high]) => *high,
-        _ => 0.0,
-    };
-    SpectralDistribution::from_fn(shape, |nm| match (nodes.at(nm), outside) {
-        (Some(value), _) => value,
-        (None, Outside::Zero) => 0.0,
-        (None, Outside::Held) => held(nm),
-    })
+/// ```
+/// use onelight_spectra::TablePoints;
+/// let points = TablePoints { x: vec![400.0, 500.0, 600.0], y: vec![1.0, 0.0, 4.0] };
+/// assert_eq!((points.at(450.0), points.at(601.0)), (Some(0.5), None));
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct TablePoints {
+    /// Abscissae, which must increase: wavelengths in nm, or log10 exposures.
+    pub x: Vec<f64>,
+    /// Ordinates, one for each abscissa, in the unit of the table.
+    pub y: Vec<f64>,
 }
 
-impl Nodes {
-    /// The value at `x`, linear between the nodes, `None` outside them.
+impl TablePoints {
+    /// The value at `x`, linear between the points, `None` outside them.
     #[must_use]
     pub fn at(&self, x: f64) -> Option<f64> {
         // As many as have both: the fields are open.
         linear_at(|i| self.x[i], &self.y[..self.y.len().min(self.x.len())], x)
     }
-}
 
-/// The value at `at` of the straight lines through the points `(x(i), y[i])`, `None` outside them; `x` increases.
-pub(crate) fn linear_at(x: impl Fn(usize) -> f64, y: &[f64], at: f64) -> Option<f64> {
-    let last = y.len().checked_sub(1)?;
-    if last == 0 || !(x(0)..=x(last)).contains(&at) {
-        return (last == 0 && x(0) == at).then(|| y[0]);
+    /// The points brought to a wavelength grid, `x` being nm: linear between them, as the CIE prescribes for its illuminants
+    /// and colour-matching functions.
+    ///
+    /// # Errors
+    /// If a value is not allowed for `Q`.
+    pub fn spectrum<Q: Quantity>(
+        &self,
+        shape: SpectralShape,
+        extrapolation: Extrapolation,
+    ) -> Result<SpectralDistribution<Q>, Error> {
+        let held = |nm: f64| match (self.x.first(), &self.y[..]) {
+            (Some(&first), [low, ..]) if nm < first => *low,
+            (_, [.., high]) => *high,
+            _ => 0.0,
+        };
+        SpectralDistribution::from_fn(shape, |nm| match (self.at(nm), extrapolation) {
+            (Some(value), _) => value,
+            (None, Extrapolation::Zero) => 0.0,
+            (None, Extrapolation::Held) => held(nm),
+        })
     }
-    let (mut low, mut high) = (0, last);
-    while high - low > 1 {
-        let middle = low.midpoint(high);
-        if x(middle) <= at { low = middle } else { high = middle }
-    }
-    Some(y[low] + (at - x(low)) / (x(high) - x(low)) * (y[high] - y[low]))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::distribution::quantity::Power;
 
-    fn nodes(x: &[f64], y: &[f64]) -> Nodes {
-        Nodes { x: x.to_vec(), y: y.to_vec(), lines: vec![1; x.len()] }
+    fn nodes(x: &[f64], y: &[f64]) -> TablePoints {
+        TablePoints { x: x.to_vec(), y: y.to_vec() }
     }
 
     #[test]
@@ -86,10 +98,9 @@ mod tests {
     #[test]
     fn beyond_the_ends_is_what_is_asked_for() {
         let table = nodes(&[400.0, 700.0], &[2.0, 5.0]);
-        let on = |outside| {
-            linear::<crate::quantity::Power>(&table, SpectralShape::VISIBLE, outside).unwrap().values().to_vec()
-        };
-        let (zero, held) = (on(Outside::Zero), on(Outside::Held));
+        let on =
+            |extrapolation| table.spectrum::<Power>(SpectralShape::VISIBLE, extrapolation).unwrap().values().to_vec();
+        let (zero, held) = (on(Extrapolation::Zero), on(Extrapolation::Held));
         assert_eq!((zero[0], zero[20], zero[320], zero[400]), (0.0, 2.0, 5.0, 0.0));
         assert_eq!((held[0], held[20], held[320], held[400]), (2.0, 2.0, 5.0, 5.0));
     }

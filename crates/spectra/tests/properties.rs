@@ -5,7 +5,7 @@ use onelight_spectra::{BufferFormat, Chromaticity, DisplayDifference, Pchip, Rgb
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-/// The same inputs in every run; PROPTEST_CASES digs deeper, in new places each time.
+/// The same inputs in every run; PROPTEST_CASES digs deeper, with new inputs each time.
 fn cases(count: u32) -> ProptestConfig {
     let mut config = ProptestConfig { failure_persistence: None, ..ProptestConfig::default() };
     if std::env::var_os("PROPTEST_CASES").is_none() {
@@ -48,21 +48,21 @@ proptest! {
     #![proptest_config(cases(256))]
 
     #[test]
-    fn monotone_nodes_make_a_monotone_curve_within_them((x, y) in rising_nodes(), places in prop::collection::vec(0.0..1.0, 64)) {
+    fn monotone_nodes_make_a_monotone_curve_within_them((x, y) in rising_nodes(), points in prop::collection::vec(0.0..1.0, 64)) {
         let curve = Pchip::new(x, y).unwrap();
-        let (first, last) = curve.range();
+        let (first, last) = curve.range().into_inner();
         let (low, high, slack) = (curve.y()[0], curve.y()[curve.y().len() - 1], rounding(curve.y()));
-        let mut places: Vec<f64> = places.into_iter().map(|t| first - 1.0 + t * (last - first + 2.0)).collect();
-        places.extend(curve.x().iter().flat_map(|x| [x.next_down(), *x, x.next_up()]));
-        places.sort_by(f64::total_cmp);
-        let values: Vec<f64> = places.iter().map(|x| curve.at(*x)).collect();
-        for (pair, x) in values.windows(2).zip(&places) {
+        let mut points: Vec<f64> = points.into_iter().map(|t| first - 1.0 + t * (last - first + 2.0)).collect();
+        points.extend(curve.x().iter().flat_map(|x| [x.next_down(), *x, x.next_up()]));
+        points.sort_by(f64::total_cmp);
+        let values: Vec<f64> = points.iter().map(|x| curve.at(*x)).collect();
+        for (pair, x) in values.windows(2).zip(&points) {
             prop_assert!(pair[1] >= pair[0] - slack, "{pair:?} at {x}");
         }
         prop_assert!(values.iter().all(|v| (low - slack..=high + slack).contains(v)));
         let steepest = curve.x().windows(2).zip(curve.y().windows(2)).map(|(x, y)| (y[1] - y[0]) / (x[1] - x[0]));
         let steepest = steepest.fold(0.0, f64::max);
-        prop_assert!(places.iter().all(|x| curve.slope_at(*x) >= -1e-14 * steepest));
+        prop_assert!(points.iter().all(|x| curve.slope_at(*x) >= -1e-14 * steepest));
     }
 
     #[test]
@@ -88,7 +88,8 @@ proptest! {
         let (mut xs, ys): (Vec<f64>, Vec<f64>) = nodes.into_iter().unzip();
         xs.sort_by(f64::total_cmp);
         if let Ok(curve) = Pchip::new(xs, ys) {
-            let all = [x, curve.range().0, curve.range().1, 0.5 * curve.range().0 + 0.5 * curve.range().1];
+            let (first, last) = curve.range().into_inner();
+            let all = [x, first, last, 0.5 * first + 0.5 * last];
             for x in all {
                 prop_assert!(curve.at(x).is_finite() && curve.slope_at(x).is_finite(), "{curve:?} at {x}");
             }

@@ -37,7 +37,7 @@ pub(super) fn files() -> Result<Vec<Seed>, Fault> {
             let channels = [("A", half(3)), ("B", float(2)), ("G", half(1)), ("R", half(0))];
             files.push((format!("{name}-{cut}.exr"), file(vec![layer(None, encoding, &channels)])?));
         }
-        // One sample type alone takes other ways than several.
+        // One sample type alone is decoded by other code than several.
         let encoding = Encoding { compression, blocks: Blocks::ScanLines, line_order: LineOrder::Decreasing };
         let channels = [("B", count(2)), ("G", count(1)), ("R", count(0))];
         files.push((format!("{name}-integers.exr"), file(vec![layer(None, encoding, &channels)])?));

@@ -1,7 +1,8 @@
 //! Files of tables: every keyword of `.cube`, every operation and style of CLF, `.spi3d`, and entries for KTX2.
 
 use onelight::StructuredSettings;
-use onelight::lut::{ClfProcess, CubeFile, Domain, Interpolation, Lut1d, Lut3d, PlainLut, Shaper, write_spi3d};
+use onelight::lut::{Domain, Interpolation, Lut1d, Lut3d, PlainLut, Shaper};
+use onelight_formats::{ClfProcess, CubeFile, direct_json, spi3d};
 
 use super::{Fault, Seed};
 
@@ -100,9 +101,9 @@ fn exponents(styles: &[&str], parameters: &str) -> String {
 
 pub(super) fn spi3d() -> Result<Vec<Seed>, Fault> {
     let mut two = Vec::new();
-    write_spi3d(&mut two, &Lut3d::identity(2)?)?;
+    spi3d::write(&mut two, &Lut3d::identity(2)?)?;
     let mut three = Vec::new();
-    write_spi3d(&mut three, &Lut3d::identity(3)?)?;
+    spi3d::write(&mut three, &Lut3d::identity(3)?)?;
     let text = String::from_utf8(two.clone())?;
     let mut shuffled: Vec<&str> = text.lines().collect();
     shuffled[3..].reverse();
@@ -113,6 +114,34 @@ pub(super) fn spi3d() -> Result<Vec<Seed>, Fault> {
         ("three.spi3d".into(), three),
         ("shuffled.spi3d".into(), shuffled.into_bytes()),
         ("refused-size.spi3d".into(), huge.into()),
+    ])
+}
+
+pub(super) fn direct_json() -> Result<Vec<Seed>, Fault> {
+    use onelight::lut::{DirectForm, DirectParts, DirectPrint, ExponentialSum, ExponentialTerm, PowerCoding};
+
+    const IDENTITY: [[f32; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let curves = || Lut1d::sample(4, [-8.0, 4.0], |h| 0.1 * (8.0 + h));
+    let sum = |terms: u8| {
+        let term = |i: u8| ExponentialTerm { rate: [1.0, 0.5, f32::from(i)], weight: [0.5, 0.25, -0.125] };
+        ExponentialSum::new((0..terms).map(term).collect())
+    };
+    let print = || -> Result<_, Fault> { Ok(DirectPrint { exposure: sum(1)?, curves: curves()? }) };
+    let file = |print: Option<DirectPrint>, coding: PowerCoding| -> Result<Vec<u8>, Fault> {
+        let parts =
+            DirectParts { input: IDENTITY, exposure: IDENTITY, curves: curves()?, print, projection: sum(2)?, coding };
+        let mut file = Vec::new();
+        direct_json::write(&mut file, &DirectForm::new(parts)?, ["a look"])?;
+        Ok(file)
+    };
+    let whole = file(Some(print()?), PowerCoding::new(2.4, 0.055)?)?;
+    let text = String::from_utf8(whole.clone())?;
+    Ok(vec![
+        ("print.json".into(), whole),
+        ("linear.json".into(), file(None, PowerCoding::LINEAR)?),
+        ("refused-version.json".into(), text.replace("\"version\": 1", "\"version\": 2").into()),
+        ("refused-number.json".into(), text.replace("0.25", "1e39").into()),
+        ("refused-shape.json".into(), text.replace("[1.0, 0.0, 0.0]", "[1.0, 0.0]").into()),
     ])
 }
 

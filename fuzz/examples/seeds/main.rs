@@ -17,12 +17,13 @@ type Seed = (String, Vec<u8>);
 
 fn main() -> Result<(), Fault> {
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures/corpus");
-    let targets: [(&str, Vec<Seed>); 9] = [
+    let targets: [(&str, Vec<Seed>); 10] = [
         ("stock", text::stocks()?),
         ("look", text::looks()),
         ("cube", lut::cube()?),
         ("clf", lut::clf()?),
         ("spi3d", lut::spi3d()?),
+        ("direct_json", lut::direct_json()?),
         ("ktx2", lut::ktx2()),
         ("exr", exr::files()?),
         ("tiff", tiff::files()?),

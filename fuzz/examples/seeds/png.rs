@@ -1,6 +1,7 @@
 //! PNG: every colour type and depth, interlaced or not, and the pictures that hold tables.
 
-use onelight::lut::{Lut3d, PngDepth, StripGreen, write_hald, write_strip};
+use onelight::lut::Lut3d;
+use onelight_formats::{PngDepth, StripGreen, hald, strip};
 use png::{BitDepth, ColorType, Encoder};
 
 use super::{Fault, Seed};
@@ -44,12 +45,12 @@ pub(super) fn files() -> Result<Vec<Seed>, Fault> {
     files.push(("texts.png".into(), texts));
 
     for (name, depth) in [("8", PngDepth::Eight), ("16", PngDepth::Sixteen)] {
-        let mut hald = Vec::new();
-        write_hald(&mut hald, &Lut3d::identity(4)?, depth, ["hald"])?;
-        files.push((format!("hald-{name}.png"), hald));
-        let mut strip = Vec::new();
-        write_strip(&mut strip, &Lut3d::identity(3)?, depth, StripGreen::Up, [""; 0])?;
-        files.push((format!("strip-{name}.png"), strip));
+        let mut square = Vec::new();
+        hald::write(&mut square, &Lut3d::identity(4)?, depth, ["hald"])?;
+        files.push((format!("hald-{name}.png"), square));
+        let mut row_of_tiles = Vec::new();
+        strip::write(&mut row_of_tiles, &Lut3d::identity(3)?, depth, StripGreen::Up, [""; 0])?;
+        files.push((format!("strip-{name}.png"), row_of_tiles));
     }
     Ok(files)
 }

@@ -3,16 +3,16 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
-use onelight::lut::{Certificate, Deviation, Law, Search, Storage, deviation};
+use onelight::baked::{AsWritten, Baked, FileFormat, Form, Recipe, ShaperChoice, smallest_under};
+use onelight::certify::{Certifier, Gamut, Tint, in_words, summary};
+use onelight::lut::{Certificate, Deviation, SamplingLaw, Search, Storage, deviation};
 use onelight::{DirectSettings, Entries, Look, Nodes, Process, TableCoding, TransferCurve, Word, WorkingSpace};
 use serde_json::json;
 
-use crate::certificate::{Measure, in_words, to_six_stops};
-use crate::compiled::{Compiled, Form, Recipe, ShaperChoice, smallest_under};
-use crate::export::{Applied, Export, Format};
-use crate::look::{LookArguments, words};
-use crate::progress::Clock;
-use crate::whole::WholeSet;
+use crate::atomic_file::AtomicFiles;
+use crate::look::LookArguments;
+use crate::progress::{Clock, bar};
+use crate::words::words;
 use crate::{Report, folders, preview, scene_colours};
 
 /// A table whose largest certified difference is above this deserves a warning, unless `--max-de` names another.
@@ -23,13 +23,13 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     look: LookArguments,
     /// What the look is baked to
-    #[arg(long, default_value = "plain")]
+    #[arg(long, default_value = "plain", value_parser = words::<Form>())]
     form: Form,
     /// Nodes along each side of the table [default: 33 plain, 32 structured]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=129))]
     size: Option<u16>,
     /// How scene light becomes a coordinate of a plain table
-    #[arg(long, default_value = "log2")]
+    #[arg(long, default_value = "log2", value_parser = words::<ShaperChoice>())]
     shaper: ShaperChoice,
     /// Where the range of a plain table ends, in stops over mid grey [default: fitted to the look]
     #[arg(long, value_name = "STOPS", value_parser = stops)]
@@ -44,8 +44,8 @@ pub(crate) struct Arguments {
     #[arg(long, default_value = "density", value_parser = words::<TableCoding>())]
     coding: TableCoding,
     /// Files to write, comma-separated [default: cube for plain, clf for structured]
-    #[arg(long, value_delimiter = ',', value_name = "FORMATS")]
-    format: Vec<Format>,
+    #[arg(long, value_delimiter = ',', value_name = "FORMATS", value_parser = words::<FileFormat>())]
+    format: Vec<FileFormat>,
     /// Exponentials of the direct form: of the projection, and of the print's exposure [default: 10,5]
     #[arg(long, value_name = "P[,D]", value_parser = nodes)]
     nodes: Option<Nodes>,
@@ -68,46 +68,49 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let mut clock = Clock::default();
-    let mut process = arguments.look.process()?;
+    let mut look = arguments.look.chosen()?;
+    let spaces = look.process.spaces_mut();
     let mut notes = Vec::new();
-    if arguments.shaper == ShaperChoice::Bevy && process.output_coding != TransferCurve::Linear {
-        notes.push(format!("Bevy's tables hold linear light: not coded by {}", process.output_coding.word()));
-        process.output_coding = TransferCurve::Linear;
+    if arguments.shaper == ShaperChoice::Bevy && spaces.output_coding != TransferCurve::Linear {
+        notes.push(format!("Bevy's tables hold linear light: not coded by {}", spaces.output_coding.word()));
+        spaces.output_coding = TransferCurve::Linear;
     }
-    let film = clock.time("compile", || process.look())?;
-    let scene = clock.time("scene", || scene_colours::read(&arguments.scene, &process))?;
-    let recipe = clock.time("choose", || recipe(arguments, &film, &process))?;
+    let (process, film) = (&look.process, clock.time("compile", || look.look())?);
+    let scene = clock.time("scene", || scene_colours::read(&arguments.scene, process))?;
+    let recipe = clock.time("choose", || recipe(arguments, &film))?;
     let formats = formats(arguments, recipe.form)?;
-    let compiled = clock.time("bake", || Compiled::new(&film, &process, &recipe, scene.as_deref()))?;
+    let baked = clock.time("bake", || baked(&film, &recipe, scene.as_deref()))?;
     let measured = match arguments.quick {
         true => None,
-        false => Some(clock.time("certify", || Measured::new(&film, &process, &compiled, &formats, scene.as_deref()))?),
+        false => Some(clock.time("certify", || Measured::new(&film, &baked, &formats, scene.as_deref()))?),
     };
     let folder = match &arguments.out {
         Some(folder) => folders::make(folder)?,
         None => folders::output(&process.name())?,
     };
-    let export =
-        Export { process: &process, compiled: &compiled, comments: comments(&process, &compiled, measured.as_ref()) };
-    let mut files = WholeSet::in_folder(&folder);
-    let mut json = json(arguments, &process, &recipe, &compiled, measured.as_ref());
+    let measured_line = measured.as_ref().map(|measured| summary(measured.srgb()));
+    let comments = baked.comments(measured_line.as_deref());
+    let mut files = AtomicFiles::in_folder(&folder);
+    let mut json = json(arguments, process, &recipe, &baked, measured.as_ref());
     clock.time("write", || -> Result<()> {
         for format in &formats {
-            export.add(*format, &mut files)?;
+            for file in baked.files(*format, &comments)? {
+                files.add(file.name, file.bytes);
+            }
         }
-        files.add("look.toml", process.to_toml().into_bytes());
+        files.add("look.toml", look.text_in(&folder).into_bytes());
         if !arguments.quick {
             files.add("look.json", serde_json::to_vec_pretty(&json)?);
         }
         Ok(())
     })?;
     if !arguments.quick {
-        files.add("preview.png", clock.time("preview", || preview::sheet(&process, &compiled))?);
+        files.add("preview.png", clock.time("preview", || preview::sheet(&baked))?);
     }
     let written = clock.time("save", || files.write())?;
     let shown: Vec<String> = written.iter().map(|file| folders::shown(file)).collect();
     let mut text = String::new();
-    let _ = writeln!(text, "{}, {} aim: {}", process.name(), process.aim.word(), compiled.describe());
+    let _ = writeln!(text, "{}, {} aim: {}", process.name(), process.aim().word(), baked.describe());
     for file in &shown {
         let _ = writeln!(text, "  {file}");
     }
@@ -145,8 +148,8 @@ fn nodes(text: &str) -> Result<Nodes, String> {
     }
 }
 
-fn recipe(arguments: &Arguments, film: &Look, process: &Process) -> Result<Recipe> {
-    let usual = Recipe::usual(arguments.form);
+fn recipe(arguments: &Arguments, film: &Look) -> Result<Recipe> {
+    let usual = Recipe::of(arguments.form);
     if arguments.nodes.is_some() && arguments.form != Form::Direct {
         bail!("--nodes: the {} form has no exponentials, expected --form direct with it", arguments.form.word());
     }
@@ -154,7 +157,15 @@ fn recipe(arguments: &Arguments, film: &Look, process: &Process) -> Result<Recip
         Some(limit) if arguments.form == Form::Direct => {
             return Ok(Recipe { nodes: Nodes::UnderMaxDe(limit), ..usual });
         }
-        Some(limit) => return smallest_under(film, process, limit),
+        Some(limit) => {
+            let progress = bar("choosing", 0);
+            let found = smallest_under(film, limit, |tried, all| {
+                progress.set_length(all as u64);
+                progress.set_position(tried as u64);
+            });
+            progress.finish_and_clear();
+            return found.with_context(|| format!("--max-de {limit}"));
+        }
         None => {}
     }
     Ok(Recipe {
@@ -172,59 +183,68 @@ fn recipe(arguments: &Arguments, film: &Look, process: &Process) -> Result<Recip
 /// The size that a format or an engine expects, where it expects one.
 fn usual_size(arguments: &Arguments, usual: usize) -> usize {
     match arguments.format.as_slice() {
-        [Format::Hald] => 64,
-        [Format::Strip] => 32,
+        [FileFormat::Hald] => 64,
+        [FileFormat::Strip] => 32,
         _ if arguments.shaper == ShaperChoice::Bevy => 64,
         _ => usual,
     }
 }
 
-fn formats(arguments: &Arguments, form: Form) -> Result<Vec<Format>> {
-    let mut formats = if arguments.format.is_empty() { vec![Format::usual(form)] } else { arguments.format.clone() };
-    formats.dedup();
-    match formats.iter().find(|format| !format.holds(form)) {
-        Some(format) => Err(format.cannot_hold(form)),
-        None => Ok(formats),
+fn formats(arguments: &Arguments, form: Form) -> Result<Vec<FileFormat>> {
+    let mut formats = arguments.format.clone();
+    if formats.is_empty() {
+        formats.push(FileFormat::usual(form));
     }
+    formats.dedup();
+    if let Some(format) = formats.iter().find(|format| !format.holds(form)) {
+        let other = if *format == FileFormat::Json { Form::Direct } else { Form::Plain };
+        bail!(
+            "--format {} cannot hold the {} form, expected {}, or --form {}",
+            format.word(),
+            form.word(),
+            FileFormat::usual(form).word(),
+            other.word()
+        );
+    }
+    if let Some(format) = formats.iter().find(|format| format.needs_coding() && !arguments.shaper.is_coding()) {
+        bail!(
+            "--format {} holds no shaper for scene-linear light, expected a coding such as --shaper srgb",
+            format.word()
+        );
+    }
+    Ok(formats)
 }
 
-/// What the files are worth: certificates of their numbers as written, and the deviation on the user's own pictures.
+/// Certificates of the files' numbers as written, and the deviation on the user's own pictures.
 struct Measured {
     /// By format, in the order asked for.
-    files: Vec<(Format, Certificate)>,
+    files: Vec<(FileFormat, Certificate)>,
     rec2020: Option<Certificate>,
     scene: Option<Deviation>,
-    /// Chroma of 18 % grey, the largest of all greys, and the exposure of that grey in stops.
-    tint: (f64, f64, f64),
+    /// The tint of greys that the look itself has, whatever it is baked to.
+    tint: Tint,
 }
 
 impl Measured {
-    fn new(
-        film: &Look,
-        process: &Process,
-        compiled: &Compiled,
-        formats: &[Format],
-        scene: Option<&[[f64; 3]]>,
-    ) -> Result<Self> {
-        let measure = Measure::new(film, process)?;
-        let export = Export { process, compiled, comments: Vec::new() };
-        let samples = measure.samples(&Law::default(), WorkingSpace::Srgb)?;
+    fn new(film: &Look, baked: &Baked, formats: &[FileFormat], scene: Option<&[[f64; 3]]>) -> Result<Self> {
+        let measure = Certifier::new(film)?;
+        let samples = measure.samples(&SamplingLaw::default(), WorkingSpace::Srgb)?;
         let mut written = Vec::new();
         for &format in formats {
-            written.push(export.as_written(format)?);
+            written.push(baked.as_written(format)?);
         }
         let mut files = Vec::new();
         for (&format, written) in formats.iter().zip(&written) {
-            files.push((format, measure.certify(&samples, written, Search::Ascent)?));
+            files.push((format, measure.certify(&samples, |rgb| written.apply(rgb), Search::Ascent)?));
         }
         let first = &written[0];
-        // A plain table takes what is inside its own primaries only.
-        let rec2020 = match compiled {
-            Compiled::Structured(_) | Compiled::Direct(_) => {
-                let samples = measure.samples(&Law::default(), WorkingSpace::Rec2020)?;
-                Some(measure.certify_in(WorkingSpace::Rec2020, &samples, first, Search::Ascent)?)
+        let rec2020 = match baked.gamut() {
+            Gamut::Wide => {
+                let samples = measure.samples(&SamplingLaw::default(), WorkingSpace::Rec2020)?;
+                let map = |rgb| first.apply(rgb);
+                Some(measure.certify_in(WorkingSpace::Rec2020, &samples, map, Search::Ascent)?)
             }
-            Compiled::Plain(_) | Compiled::Coded { .. } => None,
+            Gamut::Srgb => None,
         };
         let scene = scene.map(|colours| on_scene(film, first, colours)).transpose()?;
         Ok(Self { files, rec2020, scene, tint: measure.tint() })
@@ -245,11 +265,7 @@ impl Measured {
             let (mean, max) = (wide.overall.mean, wide.max_found);
             let _ = writeln!(text, "  the same for Rec.2020 colours: mean {mean:.3}, max {max:.3}");
         }
-        let (grey, largest, stops) = self.tint;
-        let _ = writeln!(
-            text,
-            "the film's own tint of greys: C* {grey:.1} at 18 %, at most {largest:.1} at {stops:+} stops"
-        );
+        let _ = writeln!(text, "{}", self.tint);
         if let Some(d) = &self.scene {
             let _ = writeln!(
                 text,
@@ -265,39 +281,13 @@ impl Measured {
     }
 }
 
-/// A few lines for formats that hold comments.
-fn comments(process: &Process, compiled: &Compiled, measured: Option<&Measured>) -> Vec<String> {
-    let worth = match measured.map(Measured::srgb) {
-        Some(certificate) => {
-            let (mean, max) = to_six_stops(certificate);
-            format!(
-                "CIEDE2000 from the exact film, -10 to +10 stops: mean {:.3}, p99 {:.3}, max {:.3}; to +6 stops: mean {mean:.3}, max {max:.3}",
-                certificate.overall.mean, certificate.overall.p99, certificate.max_found
-            )
-        }
-        None => "not certified".to_owned(),
-    };
-    vec![
-        format!(
-            "onelight {}: {}, {} aim, {}",
-            env!("CARGO_PKG_VERSION"),
-            process.name(),
-            process.aim.word(),
-            compiled.describe()
-        ),
-        format!(
-            "input: scene-linear {}, 18 % grey at 0.18; output: display {}, {} coding",
-            process.input_space.word(),
-            process.output_space.word(),
-            process.output_coding.word()
-        ),
-        worth,
-    ]
+fn baked(film: &Look, recipe: &Recipe, scene: Option<&[[f64; 3]]>) -> Result<Baked> {
+    Ok(scene.map_or_else(|| film.baked(recipe), |colours| film.baked_for_scene(recipe, colours))?)
 }
 
-fn on_scene(film: &Look, written: &Applied, colours: &[[f64; 3]]) -> Result<Deviation> {
+fn on_scene(film: &Look, written: &AsWritten, colours: &[[f64; 3]]) -> Result<Deviation> {
     let difference = film.difference()?;
-    let table = |rgb: [f64; 3]| written(rgb.map(|v| v as f32)).map(|v| film.coding().decode(f64::from(v)));
+    let table = |rgb: [f64; 3]| written.apply(rgb.map(|v| v as f32)).map(|v| film.coding().decode(f64::from(v)));
     let between = |a: &[f64; 3], b: &[f64; 3]| difference.between(*a, *b);
     deviation(colours, |rgb| film.develop_linear(rgb), table, between).context("the scene")
 }
@@ -306,35 +296,35 @@ fn json(
     arguments: &Arguments,
     process: &Process,
     recipe: &Recipe,
-    compiled: &Compiled,
+    baked: &Baked,
     measured: Option<&Measured>,
 ) -> serde_json::Value {
     let mut json = json!({
         "process": process,
-        "form": recipe.form,
-        "description": compiled.describe(),
+        "form": recipe.form.word(),
+        "description": baked.describe(),
         "certified": measured.is_some(),
     });
-    if let Some(table) = compiled.table() {
+    if let Some(table) = baked.table() {
         json["size"] = table.size().into();
         json["storage"] = recipe.storage.word().into();
         json["coding"] = recipe.coding.word().into();
     }
     let Some(measured) = measured else { return json };
     let limit = arguments.max_de.unwrap_or(WARN_ABOVE);
-    let (mid_grey, largest, stops) = measured.tint;
-    let worth = json!({
+    let Tint { mid_grey, largest, stops } = measured.tint;
+    let found = json!({
         "unit": "CIEDE2000",
         "certificate": measured.srgb(),
-        "certificates": measured.files.iter().map(|(f, c)| (f.word(), json!(c))).collect::<serde_json::Map<_, _>>(),
+        "certificates": measured.files.iter().map(|(f, c)| (f.word().to_owned(), json!(c))).collect::<serde_json::Map<_, _>>(),
         "certificate_rec2020": measured.rec2020,
         "scene": measured.scene,
         "tint": { "unit": "CIELAB C*", "mid_grey": mid_grey, "largest": largest, "stops": stops },
         "limit": limit,
         "failures": measured.srgb().failures(limit),
     });
-    if let (Some(json), serde_json::Value::Object(worth)) = (json.as_object_mut(), worth) {
-        json.extend(worth);
+    if let (Some(json), serde_json::Value::Object(found)) = (json.as_object_mut(), found) {
+        json.extend(found);
     }
     json
 }

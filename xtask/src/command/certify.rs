@@ -2,15 +2,16 @@ use std::fmt::Write as _;
 
 use anyhow::Result;
 use clap::Args;
-use onelight::lut::{Certificate, Law, Search, Storage};
-use onelight::{Aim, Entries, Nodes, Process, TableCoding, Word, WorkingSpace};
+use onelight::baked::{Form, Recipe, ShaperChoice};
+use onelight::certify::{Certifier, MeanAndMax, in_words, to_six_stops};
+use onelight::lut::{Certificate, SamplingLaw, Search, Storage};
+use onelight::{Aim, Entries, Nodes, Process, ProcessKeys, TableCoding, Word, WorkingSpace};
+use onelight_benches::buffers;
 use serde_json::{Value, json};
 
-use crate::certificate::{Measure, in_words, to_six_stops};
-use crate::compiled::{Compiled, Form, Recipe, ShaperChoice};
-use crate::look::LookArguments;
+use crate::Report;
+use crate::look::{ChosenLook, LookArguments};
 use crate::progress::{Clock, bar};
-use crate::{Report, buffers};
 
 /// Colours of a thorough certificate, and of a short one.
 const COLOURS: usize = 1 << 18;
@@ -43,12 +44,12 @@ fn colours(text: &str) -> Result<usize, String> {
 
 /// The forms that are compared: name, recipe.
 fn forms() -> Vec<(&'static str, Recipe)> {
-    let plain = Recipe { storage: Storage::F16, entries: Entries::Fitted, ..Recipe::usual(Form::Plain) };
+    let plain = Recipe { storage: Storage::F16, entries: Entries::Fitted, ..Recipe::of(Form::Plain) };
     let counts = |projection, duplication| {
         let nodes = Nodes::Counts { projection, duplication };
-        Recipe { nodes, ..Recipe::usual(Form::Direct) }
+        Recipe { nodes, ..Recipe::of(Form::Direct) }
     };
-    let structured = Recipe { storage: Storage::F16, ..Recipe::usual(Form::Structured) };
+    let structured = Recipe { storage: Storage::F16, ..Recipe::of(Form::Structured) };
     vec![
         ("the talk's 32^3", Recipe { size: 32, shaper: ShaperChoice::Gotanda, entries: Entries::Sampled, ..plain }),
         ("plain 33^3, f16", plain),
@@ -68,9 +69,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         return buffer_steps(arguments);
     }
     let mut clock = Clock::default();
-    let processes = processes(arguments)?;
-    let law = Law { count: arguments.colours, ..Law::default() };
-    let progress = bar("certifying", (processes.len() * forms().len()) as u64);
+    let looks = looks(arguments)?;
+    let law = SamplingLaw { count: arguments.colours, ..SamplingLaw::default() };
+    let progress = bar("certifying", (looks.len() * forms().len()) as u64);
     let mut text = format!(
         "CIEDE2000 from the exact film, {} sRGB colours from -10 to +10 stops, any saturation; max after following the worst\n\
          {:46} {:24} {:>6} {:>6} {:>6} {:>7}  {:>16}\n",
@@ -79,17 +80,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let mut rows = Vec::new();
     // The best form of a single process is described in full.
     let mut best = (f64::INFINITY, String::new());
-    for process in &processes {
-        let film = clock.time("compile", || process.look())?;
-        let measure = Measure::new(&film, process)?;
+    for look in &looks {
+        let (process, film) = (&look.process, clock.time("compile", || look.look())?);
+        let measure = Certifier::new(&film)?;
         let samples = clock.time("film", || measure.samples(&law, WorkingSpace::Srgb))?;
         // Only a film has the curves that the other forms are made of.
         let fits = |recipe: &Recipe| recipe.form == Form::Plain || film.film().is_ok();
         for (form, recipe) in forms().into_iter().filter(|(_, recipe)| fits(recipe)) {
-            let compiled = clock.time("bake", || Compiled::new(&film, process, &recipe, None))?;
+            let compiled = clock.time("bake", || film.baked(&recipe))?;
             let found =
                 clock.time("certify", || measure.certify(&samples, |rgb| compiled.apply(rgb), Search::Ascent))?;
-            let name = format!("{}, {} aim", process.name(), process.aim.word());
+            let name = format!("{}, {} aim", process.name(), process.aim().word());
             row(&mut text, &name, form, &found);
             if found.max_found < best.0 {
                 best = (found.max_found, format!("\n{name}, {form}\n{}", in_words(&found, "sRGB")));
@@ -102,7 +103,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     }
     progress.finish_and_clear();
     text.push_str("* the worst of the five bands of four stops\n");
-    if processes.len() == 1 {
+    if looks.len() == 1 {
         text.push_str(&best.1);
     }
     let _ = writeln!(text, "time: {}", clock.sentence());
@@ -110,7 +111,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
 }
 
 fn buffer_steps(arguments: &Arguments) -> Result<Report> {
-    let film = arguments.look.process()?.look()?;
+    let film = arguments.look.chosen()?.look()?;
     let mut text =
         "largest step (CIEDE2000) on a grey ramp from -8 to +4 stops, through the buffer and the film\n".to_owned();
     let mut json = serde_json::Map::new();
@@ -122,27 +123,41 @@ fn buffer_steps(arguments: &Arguments) -> Result<Report> {
     Ok(Report { text, json: Value::from(json), as_json: arguments.json })
 }
 
-fn processes(arguments: &Arguments) -> Result<Vec<Process>> {
+fn looks(arguments: &Arguments) -> Result<Vec<ChosenLook>> {
+    let look = arguments.look.chosen()?;
     if !arguments.all {
-        return Ok(vec![arguments.look.process()?]);
+        return Ok(vec![look]);
     }
-    of_the_readme(&arguments.look.process()?)
+    Ok(of_the_readme(&look.process)?.into_iter().map(ChosenLook::from).collect())
 }
 
 /// The five films of the README in both aims, all else as `base` has it.
 pub(super) fn of_the_readme(base: &Process) -> Result<Vec<Process>> {
     let mut all = Vec::new();
     for camera in CAMERAS {
-        let usual = Process::for_camera(camera)?;
+        let usual = ProcessKeys::from(&Process::for_camera(camera)?);
         for aim in [Aim::Neutral, Aim::Sheet] {
-            all.push(Process { camera: usual.camera.clone(), print: usual.print.clone(), aim, ..base.clone() });
+            let films = (usual.camera.clone(), usual.print.clone());
+            all.push(with_films(base, films, |keys| keys.aim = aim)?);
         }
     }
     Ok(all)
 }
 
+/// The same process with other built-in films, and what else `change` says.
+pub(super) fn with_films(
+    base: &Process,
+    (camera, print): (String, Option<String>),
+    change: impl FnOnce(&mut ProcessKeys),
+) -> Result<Process> {
+    let mut keys = ProcessKeys { camera, print, ..ProcessKeys::from(base) };
+    (keys.camera_sheet, keys.camera_sha256, keys.print_sheet, keys.print_sha256) = (None, None, None, None);
+    change(&mut keys);
+    Ok(keys.process()?)
+}
+
 fn row(text: &mut String, process: &str, form: &str, found: &Certificate) {
-    let (mean6, max6) = to_six_stops(found);
+    let MeanAndMax { mean: mean6, max: max6 } = to_six_stops(found);
     let d = &found.overall;
     // Writing to a string cannot fail.
     let _ = writeln!(

@@ -5,12 +5,13 @@ use anyhow::Result;
 use clap::Args;
 use onelight::lut::Deviation;
 use onelight::{Process, Reference};
+use onelight_fixtures::{CAMERA_FILM, ExposedScene, layers, patches};
+use onelight_picture::{Picture, Source};
 use rayon::prelude::*;
 use serde_json::json;
 
-use crate::picture::{Picture, Source, write_exr};
+use crate::picture_file::write_exr;
 use crate::progress::Clock;
-use crate::truth::{TRUE_FILM, Truth, layers};
 use crate::{Report, folders};
 
 /// Size of the scene, and of the copy that the repository holds.
@@ -32,15 +33,15 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let mut clock = Clock::default();
-    let film = Process::for_camera(TRUE_FILM)?.compile()?;
+    let film = Process::for_camera(CAMERA_FILM)?.compile()?;
     let size = if arguments.commit { SMALL } else { SIZE };
-    let scene = clock.time("render", || Truth::render(size, &film))?;
+    let scene = clock.time("render", || ExposedScene::render(size, &film))?;
     let folder = match &arguments.out {
         Some(folder) => folders::make(folder)?,
         None if arguments.commit => folders::make(&folders::workspace()?.join("fixtures/scene"))?,
         None => folders::output("fixtures")?,
     };
-    let files = [folder.join("scene.exr"), folder.join(format!("exposure_{TRUE_FILM}.exr"))];
+    let files = [folder.join("scene.exr"), folder.join(format!("exposure_{CAMERA_FILM}.exr"))];
     clock.time("write", || -> Result<()> {
         let of = |pixels: &[[f32; 3]]| {
             let pixels = if arguments.commit { in_half(pixels) } else { pixels.to_vec() };
@@ -53,7 +54,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     })?;
     let all: Vec<usize> = (0..scene.rgb.len()).collect();
     let cost = clock.time("compare", || cost_of_rgb(&film, &scene, &all))?;
-    let patches = crate::scene::patches(size);
+    let patches = patches(size);
     let at = |(x, y): (usize, usize)| y * size.0 + x;
     let chart = cost_of_rgb(&film, &scene, &patches.color_checker.map(at))?;
     let grey = cost_of_rgb(&film, &scene, &[at(patches.grey_card)])?;
@@ -86,7 +87,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
 }
 
 /// The picture of the true exposures against the picture of the RGB, at some pixels.
-fn cost_of_rgb(film: &Reference, scene: &Truth, pixels: &[usize]) -> Result<Deviation> {
+fn cost_of_rgb(film: &Reference, scene: &ExposedScene, pixels: &[usize]) -> Result<Deviation> {
     let difference = film.difference()?;
     let of = |&i: &usize| {
         let (rgb, exposure) = (scene.rgb[i].map(f64::from), layers(scene.exposure[i]));
@@ -103,43 +104,27 @@ fn in_half(pixels: &[[f32; 3]]) -> Vec<[f32; 3]> {
 
 #[cfg(test)]
 mod tests {
+    use onelight_picture::Limits;
+
     use super::*;
-    use crate::picture::{Limits, read};
 
     /// Half precision, and what another processor's rounding may add.
     const TOLERANCE: f32 = 2e-3;
 
     #[test]
     fn the_copy_in_the_repository_is_the_scene() {
-        let film = Process::for_camera(TRUE_FILM).unwrap().compile().unwrap();
-        let scene = Truth::render(SMALL, &film).unwrap();
+        let film = Process::for_camera(CAMERA_FILM).unwrap().compile().unwrap();
+        let scene = ExposedScene::render(SMALL, &film).unwrap();
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures/scene");
         for (file, pixels) in [("scene.exr", scene.rgb), ("exposure_kodak-5207.exr", scene.exposure)] {
-            let copy = read(&folder.join(file), &Limits::default()).unwrap();
+            let copy = std::fs::File::open(folder.join(file)).unwrap();
+            let copy = Picture::read(copy, file, Limits::default()).unwrap();
             assert_eq!((copy.width, copy.height), SMALL);
             for (i, (a, b)) in copy.rgb.iter().flatten().zip(pixels.iter().flatten()).enumerate() {
                 assert!(
                     (a - b).abs() <= TOLERANCE * b.abs() + 1e-6,
                     "{file}, value {i}: {a} in the copy, {b} rendered"
                 );
-            }
-        }
-    }
-
-    #[test]
-    fn the_step_wedge_and_the_card_are_grey_to_the_film() {
-        let film = Process::for_camera(TRUE_FILM).unwrap().compile().unwrap();
-        let scene = Truth::render(SIZE, &film).unwrap();
-        let patches = crate::scene::patches(SIZE);
-        for (step, (x, y)) in (-7..).zip(patches.wedge) {
-            let expected = 0.18 * 2f32.powi(step);
-            for v in scene.rgb[y * SIZE.0 + x] {
-                assert!((v / expected - 1.0).abs() < 1e-3, "step {step}: {v}");
-            }
-            // White light of a known spectrum: RGB and spectrum give the film the same.
-            let through_rgb = film.exposure_matrix().expose([f64::from(expected); 3]).to_array();
-            for (a, b) in scene.exposure[y * SIZE.0 + x].into_iter().zip(through_rgb) {
-                assert!((f64::from(a) / b - 1.0).abs() < 5e-3, "step {step}: {a} against {b}");
             }
         }
     }

@@ -1,17 +1,4 @@
-//! The forms on a graphics card: time beside a plain copy, and difference from the film.
-
-#[cfg(feature = "gpu")]
-mod card;
-#[cfg(feature = "gpu")]
-mod copy;
-#[cfg(feature = "gpu")]
-mod difference;
-#[cfg(feature = "gpu")]
-mod measure;
-#[cfg(feature = "gpu")]
-mod pictures;
-#[cfg(feature = "gpu")]
-mod report;
+//! `gpu-bench`: the forms on a graphics card, in a build that knows graphics cards.
 
 use std::path::PathBuf;
 
@@ -35,7 +22,25 @@ pub(crate) struct Arguments {
 
 #[cfg(feature = "gpu")]
 pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
-    report::run(arguments)
+    use std::fmt::Write as _;
+
+    use crate::atomic_file::write_atomically;
+    use crate::folders;
+
+    let folder = match &arguments.out {
+        Some(folder) => folders::make(folder)?,
+        None => folders::output("")?,
+    };
+    let found = onelight_benches::gpu::measure(arguments.software)?;
+    let json = found.json();
+    let path = folder.join("gpu.json");
+    write_atomically(&path, |file| Ok(serde_json::to_writer_pretty(file, &json)?))?;
+    let mut text = found.text();
+    let _ = writeln!(text, "{}", folders::shown(&path));
+    if let Some(fault) = found.fault() {
+        anyhow::bail!("{text}{fault}");
+    }
+    Ok(Report { text, json, as_json: arguments.json })
 }
 
 /// Runs this command again in a build that knows graphics cards.

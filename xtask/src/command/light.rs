@@ -43,7 +43,7 @@ fn amount(text: &str) -> Result<f64, String> {
 pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let Arguments { lux, lumen, kelvin, shutter, f_number, iso, json } = *arguments;
     let rgb = lamp_rgb_w_per_m2(Kelvin::new(kelvin)?, lux.or(lumen).unwrap_or_default())?;
-    let [r, g, b] = rgb.data.0[0];
+    let [r, g, b] = rgb;
     let mut text = String::new();
     let Some(lux) = lux else {
         let lumen = lumen.unwrap_or_default();

@@ -3,11 +3,12 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use clap::Args;
-use onelight::film::{ExposureAxis, Origin, PerLayer, SpectralSensitivity};
-use onelight::{Process, Stock, StockKind, stock, stock_ids};
+use onelight::film::{ExposureAxis, Origin, PerLayer};
+use onelight::{FilmProcess, Printing, Process, Stock, StockKind, stock, stock_ids};
+use onelight_benches::sheet_fidelity;
 use serde_json::{Value, json};
 
-use crate::{Report, folders, likeness, plot};
+use crate::{Report, folders, plot};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -18,8 +19,8 @@ pub(crate) struct Arguments {
     #[arg(long)]
     check: bool,
     /// Say of every camera film what is reproduced, and how nearly (docs/stocks.md says what the columns are)
-    #[arg(long, conflicts_with_all = ["id", "check"])]
-    likeness: bool,
+    #[arg(long, alias = "likeness", conflicts_with_all = ["id", "check"])]
+    fidelity: bool,
     /// Folder for the plot of one stock [default: target/onelight/stocks]
     #[arg(long, value_name = "DIR", requires = "id")]
     out: Option<PathBuf>,
@@ -32,9 +33,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let (text, json) = match &arguments.id {
         Some(id) => one(id, arguments.out.as_deref())?,
         None if arguments.check => check()?,
-        None if arguments.likeness => {
-            let found = likeness::all()?;
-            (likeness::table(&found), serde_json::to_value(found)?)
+        None if arguments.fidelity => {
+            let found = sheet_fidelity::all()?;
+            (sheet_fidelity::table(&found), serde_json::to_value(found)?)
         }
         None => all()?,
     };
@@ -127,8 +128,8 @@ fn check() -> Result<(String, Value)> {
             StockKind::Reversal => compile(Process::for_camera(id)?),
             StockKind::Negative => {
                 for print in of_kind(StockKind::Print) {
-                    let (camera, print) = (id.to_owned(), Some(print.to_owned()));
-                    compile(Process { camera, print, ..Process::default() });
+                    let (camera, print) = (id.into(), Some(Printing::on(print)));
+                    compile(Process::from(FilmProcess { camera, print, ..Default::default() }));
                 }
             }
             StockKind::Print => {}
@@ -159,7 +160,7 @@ fn as_json(stock: &Stock) -> Value {
         "axis": axis(stock),
         "d_min": stock.characteristic().map(|curve| curve.d_min().0).to_array(),
         "d_max": stock.characteristic().map(|curve| curve.d_max().0).to_array(),
-        "aim_status_a": stock.aim().map(|(aim, _)| aim.map(|d| d.0).to_array()),
+        "aim_status_a": stock.aim().map(|aim| aim.status_a.map(|d| d.0).to_array()),
         "derived": stock.derived(),
         "uncertainty": {
             "origin": stock.uncertainty().origin,
@@ -188,8 +189,8 @@ fn axis(stock: &Stock) -> &'static str {
 
 fn aim(stock: &Stock) -> String {
     match stock.aim() {
-        Some((aim, origin)) => {
-            let [r, g, b] = aim.map(|d| d.0).to_array();
+        Some(onelight::film::AimDensities { status_a, origin }) => {
+            let [r, g, b] = status_a.map(|d| d.0).to_array();
             format!("{r:.2}/{g:.2}/{b:.2}{}", if origin == Origin::Derived { "*" } else { "" })
         }
         None => "-".to_owned(),
@@ -224,16 +225,16 @@ fn mean(values: [f64; 3]) -> f64 {
 }
 
 fn steepest(curve: &onelight::film::CharacteristicCurve) -> f64 {
-    let (nodes, _) = curve.nodes();
+    let nodes = curve.log_exposures();
     nodes.iter().map(|&h| curve.slope(onelight::film::LogExposure(h)).abs()).fold(0.0, f64::max)
 }
 
 fn sensitive_nm(stock: &Stock) -> (f64, f64) {
-    widest(stock.sensitivity().map(SpectralSensitivity::range_nm))
+    widest(stock.sensitivity().map(|layer| layer.range_nm().into_inner()))
 }
 
 fn exposures(stock: &Stock) -> (f64, f64) {
-    widest(stock.characteristic().map(|curve| (curve.range().0.0, curve.range().1.0)))
+    widest(stock.characteristic().map(|curve| (curve.range().start().0, curve.range().end().0)))
 }
 
 fn widest(ranges: PerLayer<(f64, f64)>) -> (f64, f64) {

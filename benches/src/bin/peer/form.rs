@@ -1,48 +1,27 @@
 use std::error::Error;
 
 use onelight::{DirectSettings, Reference, StructuredSettings, TableCoding};
-use onelight_benches::{PLAIN_SIZE, shaper};
-use onelight_lut::{
-    DirectForm, Interpolation, Lut3d, PixelMap, Pixels, PixelsMut, PlainLut, Sample, StructuredLut, bake, bake_form,
-};
+use onelight_benches::{Form, PLAIN_SIZE, shaper};
+use onelight_lut::{DirectForm, Interpolation, Lut3d, PlainLut, bake, bake_form};
 
-/// One of the forms.
-pub(crate) enum Form {
-    Plain(PlainLut),
-    Structured(StructuredLut),
-    Direct(DirectForm),
+/// From the entries of a table that was baked before.
+pub(crate) fn plain(entries: Vec<[f32; 3]>) -> Result<Form, Box<dyn Error>> {
+    Ok(Form::Plain(PlainLut::new(shaper()?, Lut3d::new(PLAIN_SIZE, entries)?, Interpolation::Tetrahedral)))
 }
 
-impl Form {
-    /// From the entries of a table that was baked before.
-    pub(crate) fn plain(entries: Vec<[f32; 3]>) -> Result<Self, Box<dyn Error>> {
-        Ok(Self::Plain(PlainLut::new(shaper()?, Lut3d::new(PLAIN_SIZE, entries)?, Interpolation::Tetrahedral)))
-    }
+/// The usual structured form, its entries in a coding.
+pub(crate) fn structured(film: &Reference, coding: TableCoding) -> Result<Form, Box<dyn Error>> {
+    let settings = StructuredSettings { coding, ..StructuredSettings::default() };
+    Ok(Form::Structured(Box::new(film.structured(&settings)?)))
+}
 
-    pub(crate) fn structured(film: &Reference, coding: TableCoding) -> Result<Self, Box<dyn Error>> {
-        Ok(Self::Structured(film.structured(&StructuredSettings { coding, ..StructuredSettings::default() })?))
-    }
-
-    pub(crate) fn direct(film: &Reference) -> Result<Self, Box<dyn Error>> {
-        Ok(Self::Direct(film.direct(&DirectSettings::default())?))
-    }
-
-    /// A whole picture.
-    pub(crate) fn map<T: Sample>(
-        &self,
-        from: &Pixels<'_, f32>,
-        to: &mut PixelsMut<'_, T>,
-    ) -> Result<(), Box<dyn Error>> {
-        Ok(match self {
-            Self::Plain(form) => form.map(from, to),
-            Self::Structured(form) => form.map(from, to),
-            Self::Direct(form) => form.map(from, to),
-        }?)
-    }
+/// The usual direct form.
+pub(crate) fn direct(film: &Reference) -> Result<Form, Box<dyn Error>> {
+    Ok(Form::Direct(Box::new(film.direct(&DirectSettings::default())?)))
 }
 
 /// How the nodes of a plain table are computed.
-pub(crate) enum Way {
+pub(crate) enum BakeMethod {
     /// Each by the exact film.
     Reference,
     /// As `Reference::bake` does it, which makes a direct form first.
@@ -51,7 +30,7 @@ pub(crate) enum Way {
     Form(Box<DirectForm>),
 }
 
-impl Way {
+impl BakeMethod {
     pub(crate) fn parse(word: &str, film: &Reference) -> Result<Self, Box<dyn Error>> {
         match word {
             "reference" => Ok(Self::Reference),
@@ -61,7 +40,7 @@ impl Way {
         }
     }
 
-    /// A plain table.
+    /// Bakes a plain table of `size` nodes a side.
     pub(crate) fn bake(&self, film: &Reference, size: usize) -> Result<Lut3d, Box<dyn Error>> {
         let shaper = shaper()?;
         let at = |coordinates: [f64; 3]| coordinates.map(|t| shaper.decode(t));

@@ -5,12 +5,12 @@ use std::path::Path;
 use std::time::Instant;
 
 use onelight::{Reference, TableCoding};
-use onelight_benches::{NEGATIVE, PLAIN_SIZE, SHAPER, film, natural, plain};
+use onelight_benches::{Form, NEGATIVE, PLAIN_SIZE, SHAPER, film, natural, plain};
 use onelight_lut::{Channels, Pixels, PixelsMut, Sample};
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use crate::form::{Form, Way};
+use crate::form::{self, BakeMethod};
 
 type Answer = Result<Vec<f64>, Box<dyn Error>>;
 
@@ -31,7 +31,7 @@ pub(crate) struct Session {
 }
 
 impl Session {
-    /// One command.
+    /// Does one command of the table in `main.rs`; its numbers, or why it failed.
     pub(crate) fn obey(&mut self, words: &[&str]) -> Answer {
         match *words {
             ["make", folder, width, height] => make(Path::new(folder), [width.parse()?, height.parse()?]),
@@ -64,12 +64,12 @@ impl Session {
             }
             ["bake", way, size, runs] => {
                 let film = known(&mut self.film)?;
-                let (way, size) = (Way::parse(way, film)?, size.parse()?);
-                times(self.pool.as_ref(), runs.parse()?, || way.bake(film, size).map(drop))
+                let (method, size) = (BakeMethod::parse(way, film)?, size.parse()?);
+                times(self.pool.as_ref(), runs.parse()?, || method.bake(film, size).map(drop))
             }
             ["misses", way, size] => {
                 let film = known(&mut self.film)?;
-                misses(film, &Way::parse(way, film)?, size.parse()?)
+                misses(film, &BakeMethod::parse(way, film)?, size.parse()?)
             }
             _ => Err("no such command".into()),
         }
@@ -91,15 +91,15 @@ impl Session {
             "plain" => {
                 let entries = self.table.clone();
                 begin = Instant::now();
-                Form::plain(entries)
+                form::plain(entries)
             }
             "structured" | "display" | "direct" => {
                 let film = known(&mut self.film)?;
                 begin = Instant::now();
                 match name {
-                    "structured" => Form::structured(film, TableCoding::Density),
-                    "display" => Form::structured(film, TableCoding::Display),
-                    _ => Form::direct(film),
+                    "structured" => form::structured(film, TableCoding::Density),
+                    "display" => form::structured(film, TableCoding::Display),
+                    _ => form::direct(film),
                 }
             }
             _ => return Err("found another form, expected plain, structured, display or direct".into()),
@@ -113,7 +113,7 @@ impl Session {
 /// Writes what all programs are given.
 fn make(folder: &Path, size: [usize; 2]) -> Answer {
     let lut = plain(&film(NEGATIVE)?)?;
-    write_floats(&folder.join("table.f32"), lut.table().entries().iter().flatten())?;
+    write_floats(&folder.join("table.f32"), lut.table().entries().flatten().collect::<Vec<_>>().iter())?;
     write_floats(&folder.join("picture.f32"), natural(size).iter())?;
     Ok(vec![PLAIN_SIZE as f64, SHAPER[0], SHAPER[1]])
 }
@@ -128,7 +128,7 @@ fn apply<T: Sample>(
 ) -> Answer {
     let from = Pixels::new(from, Channels::Rgba, size)?;
     let mut to = PixelsMut::new(to, Channels::Rgba, size)?;
-    times(pool, runs, || form.map(&from, &mut to))
+    times(pool, runs, || Ok(form.map(&from, &mut to)?))
 }
 
 fn copy(pool: Option<&ThreadPool>, from: &[f32], to: &mut [f32], runs: usize) -> Answer {
@@ -140,12 +140,12 @@ fn copy(pool: Option<&ThreadPool>, from: &[f32], to: &mut [f32], runs: usize) ->
 }
 
 /// How far a table's nodes are from the exact film.
-fn misses(film: &Reference, way: &Way, size: usize) -> Answer {
-    let (table, exact) = (way.bake(film, size)?, Way::Reference.bake(film, size)?);
+fn misses(film: &Reference, method: &BakeMethod, size: usize) -> Answer {
+    let (table, exact) = (method.bake(film, size)?, BakeMethod::Reference.bake(film, size)?);
     let (difference, coding) = (film.difference()?, film.coding());
     let linear = |rgb: &[f32; 3]| rgb.map(|v| coding.decode(f64::from(v)));
-    let pairs = table.entries().par_iter().zip(exact.entries());
-    Ok(vec![pairs.map(|(a, b)| difference.between(linear(a), linear(b))).reduce(|| 0.0, f64::max)])
+    let pairs: Vec<_> = table.entries().zip(exact.entries()).collect();
+    Ok(vec![pairs.par_iter().map(|(a, b)| difference.between(linear(a), linear(b))).reduce(|| 0.0, f64::max)])
 }
 
 /// The film, compiled at its first use.
@@ -156,7 +156,7 @@ fn known(film: &mut Option<Reference>) -> Result<&Reference, Box<dyn Error>> {
     film.as_ref().ok_or_else(|| "no film".into())
 }
 
-/// Nanoseconds of each run.
+/// Nanoseconds that each of the runs took.
 fn times(
     pool: Option<&ThreadPool>,
     runs: usize,

@@ -1,8 +1,11 @@
+use std::ops::RangeInclusive;
+
 use onelight_spectra::Pchip;
 
+use super::direction::Direction;
 use super::isotonic::isotonic;
-use super::{Density, Direction, LogExposure};
 use crate::error::Error;
+use crate::quantity::{Density, LogExposure};
 
 /// A characteristic (H-D) curve: density over log exposure, monotone, flat outside the published range.
 ///
@@ -21,7 +24,7 @@ pub struct CharacteristicCurve {
 }
 
 impl CharacteristicCurve {
-    /// Isotonic regression of the points (reading noise makes curves bend back by up to 0.008), then a monotone cubic.
+    /// Isotonic regression of the points, because reading noise makes curves bend back, then a monotone cubic.
     ///
     /// # Errors
     /// If the points are fewer than two, not finite, or their log exposures do not increase.
@@ -29,7 +32,7 @@ impl CharacteristicCurve {
         Ok(Self { curve: Pchip::new(log_exposure, isotonic(density, direction))?, direction })
     }
 
-    /// Density at an exposure.
+    /// The density that an exposure of the layer makes.
     #[must_use]
     pub fn density(&self, h: LogExposure) -> Density {
         Density(self.curve.at(h.0))
@@ -47,20 +50,20 @@ impl CharacteristicCurve {
         self.curve.slope_at(h.0)
     }
 
-    /// First and last published log exposure.
+    /// From the first published log exposure to the last.
     #[must_use]
-    pub fn range(&self) -> (LogExposure, LogExposure) {
-        let (first, last) = self.curve.range();
-        (LogExposure(first), LogExposure(last))
+    pub fn range(&self) -> RangeInclusive<LogExposure> {
+        let (first, last) = self.curve.range().into_inner();
+        LogExposure(first)..=LogExposure(last)
     }
 
-    /// The lowest density.
+    /// The lowest published density: that of the film without image.
     #[must_use]
     pub fn d_min(&self) -> Density {
         Density(self.curve.y().iter().copied().fold(f64::INFINITY, f64::min))
     }
 
-    /// The highest published density.
+    /// The highest published density; a film may reach more beyond the sheet.
     #[must_use]
     pub fn d_max(&self) -> Density {
         Density(self.curve.y().iter().copied().fold(f64::NEG_INFINITY, f64::max))
@@ -72,9 +75,15 @@ impl CharacteristicCurve {
         self.direction
     }
 
-    /// The nodes: log exposures and densities.
+    /// The log exposures of the published points, increasing.
     #[must_use]
-    pub fn nodes(&self) -> (&[f64], &[f64]) {
-        (self.curve.x(), self.curve.y())
+    pub fn log_exposures(&self) -> &[f64] {
+        self.curve.x()
+    }
+
+    /// The densities at [`CharacteristicCurve::log_exposures`], monotone.
+    #[must_use]
+    pub fn densities(&self) -> &[f64] {
+        self.curve.y()
     }
 }

@@ -1,4 +1,4 @@
-use super::Direction;
+use super::direction::Direction;
 
 /// The monotone sequence nearest to `values` in least squares: pool adjacent violators.
 pub(crate) fn isotonic(values: &[f64], direction: Direction) -> Vec<f64> {

@@ -1,5 +1,7 @@
-use super::{METERED_LUX_S, MID_GREY};
-use crate::error::{Error, Kind};
+use onelight_spectra::MID_GREY;
+
+use crate::error::{Error, ErrorKind};
+use crate::metering::MID_GREY_LUX_S;
 
 /// A real camera: what its settings let through to the film.
 ///
@@ -50,7 +52,7 @@ impl Camera {
     /// # Errors
     /// If the exposure index is not within 1e-3 to 1e9.
     pub fn scene_value(self, lux: f64, exposure_index: f64) -> Result<f64, Error> {
-        let mid_grey_lux_s = METERED_LUX_S / EXPOSURE_INDEX.check(exposure_index)?;
+        let mid_grey_lux_s = MID_GREY_LUX_S / EXPOSURE_INDEX.check(exposure_index)?;
         Ok(MID_GREY * self.focal_plane_exposure(lux / std::f64::consts::PI) / mid_grey_lux_s)
     }
 }
@@ -59,6 +61,15 @@ impl Camera {
 /// number is in mJ/m^2 per F per ISO 100 and keeps its size whatever the camera's settings.
 ///
 /// `F` divides the exposure as it stands; physically that is the square of the f-number.
+///
+/// ```
+/// use onelight_film::FrameBufferScale;
+/// // 1/60 s at f/8, ISO 400.
+/// let scale = FrameBufferScale::new(1.0 / 60.0, 64.0, 400.0)?;
+/// let film = scale.film_exposure_mj_per_m2(scale.stored(2.0));
+/// assert!((film - 2000.0 / 60.0 / 64.0).abs() < 1e-12, "the film's speed cancels in the film: {film} mJ/m^2");
+/// # Ok::<(), onelight_film::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrameBufferScale {
     factor: f64,
@@ -107,7 +118,7 @@ const EXPOSURE_INDEX: Setting = Setting { what: "exposure index", allowed: 1e-3.
 impl Setting {
     fn check(&self, found: f64) -> Result<f64, Error> {
         let Self { what, expected, .. } = *self;
-        if self.allowed.contains(&found) { Ok(found) } else { Err(Kind::Camera { what, found, expected }.into()) }
+        if self.allowed.contains(&found) { Ok(found) } else { Err(ErrorKind::Camera { what, found, expected }.into()) }
     }
 }
 

@@ -1,14 +1,30 @@
 use nalgebra::{Matrix3, Vector3};
-use onelight_spectra::{Basis, SpectralShape, lux_to_w_per_m2};
+use onelight_spectra::{Basis, MID_GREY, SpectralShape, lux_to_w_per_m2};
 
-use super::{METERED_LUX_S, MID_GREY};
-use crate::curve::{Density, LogExposure};
 use crate::error::Error;
 use crate::layer::PerLayer;
+use crate::metering::MID_GREY_LUX_S;
+use crate::quantity::{Density, LogExposure};
 use crate::sensitivity::Tail;
 use crate::stock::{ExposureAxis, Stock};
 
 /// How exposures meet the axis of the characteristic curves: what fixes the matching vector.
+///
+/// ```
+/// use onelight_film::{ExposureMatrix, Matching, PerLayer, SheetText, Stock};
+/// use onelight_spectra::{Basis, Reconstruction};
+/// # fn read(id: &str) -> Result<Stock, Box<dyn std::error::Error>> {
+/// #     let f = onelight_stocks::find(id).ok_or("no such stock")?;
+/// #     Ok(Stock::parse(&SheetText { id: f.id, stock_toml: f.stock_toml, sensitivity_csv: f.sensitivity_csv,
+/// #         characteristic_csv: f.characteristic_csv, dye_density_csv: f.dye_density_csv })?)
+/// # }
+/// // The sheet of 5207 has a relative axis: it does not say what an exposure in lux s does.
+/// let (stock, basis) = (read("kodak-5207")?, Basis::new(Reconstruction::Smooth)?);
+/// let mid_grey = PerLayer::all(stock.mid_grey()?);
+/// let error = ExposureMatrix::new(&stock, &basis, Matching::Absolute, mid_grey).unwrap_err();
+/// assert!(error.is_not_published());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Matching {
     /// An 18 % grey under the 6500 K white lands on the mid grey of all three curves: the film is balanced for its light.
@@ -20,6 +36,23 @@ pub enum Matching {
 
 /// Scene RGB (sRGB primaries, 6500 K white) to the exposure of each layer: E = K u. Spectrum, sensitivity and matching
 /// vector in one 3x3 matrix, integrated at 1 nm.
+///
+/// ```
+/// use onelight_film::{ExposureMatrix, LogExposure, Matching, PerLayer, SheetText, Stock};
+/// use onelight_spectra::{Basis, MID_GREY, Reconstruction};
+/// # fn read(id: &str) -> Result<Stock, Box<dyn std::error::Error>> {
+/// #     let f = onelight_stocks::find(id).ok_or("no such stock")?;
+/// #     Ok(Stock::parse(&SheetText { id: f.id, stock_toml: f.stock_toml, sensitivity_csv: f.sensitivity_csv,
+/// #         characteristic_csv: f.characteristic_csv, dye_density_csv: f.dye_density_csv })?)
+/// # }
+/// let (stock, basis) = (read("kodak-5207")?, Basis::new(Reconstruction::Smooth)?);
+/// let mid_grey = stock.mid_grey()?;
+/// let matrix = ExposureMatrix::new(&stock, &basis, Matching::Grey, PerLayer::all(mid_grey))?;
+/// // A grey card lands on the mid grey of all three curves.
+/// let red = LogExposure::of(matrix.expose([MID_GREY; 3]).red);
+/// assert!((red.0 - mid_grey.0).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExposureMatrix {
     matrix: Matrix3<f64>,
@@ -38,7 +71,7 @@ impl ExposureMatrix {
         mid_grey: PerLayer<LogExposure>,
     ) -> Result<Self, Error> {
         let sensors = sensors(stock, basis)?;
-        let grey = PerLayer::from((sensors * Vector3::repeat(MID_GREY)).data.0[0]);
+        let grey = PerLayer::from(<[f64; 3]>::from(sensors * Vector3::repeat(MID_GREY)));
         let vector = match matching {
             Matching::Grey => mid_grey.zip_map(grey, |h, response| h.exposure() / response),
             Matching::Absolute => absolute(stock, basis)?,
@@ -54,10 +87,10 @@ impl ExposureMatrix {
         Self { matrix: self.matrix * factor, matching: self.matching.map(|c| c * factor) }
     }
 
-    /// Exposure of each layer for a scene RGB.
+    /// Exposure of each layer for a scene-linear RGB (sRGB primaries, 6500 K white), on the axis of the characteristic curves.
     #[must_use]
-    pub fn expose(&self, rgb: [f64; 3]) -> PerLayer<f64> {
-        PerLayer::from((self.matrix * Vector3::from(rgb)).data.0[0])
+    pub fn expose(&self, scene_linear: [f64; 3]) -> PerLayer<f64> {
+        PerLayer::from(<[f64; 3]>::from(self.matrix * Vector3::from(scene_linear)))
     }
 
     /// The matrix, the matching vector in it; row i is layer i.
@@ -66,7 +99,7 @@ impl ExposureMatrix {
         &self.matrix
     }
 
-    /// The matching vector by itself.
+    /// The matching vector: by what the response of each layer is multiplied to be an exposure on its axis.
     #[must_use]
     pub fn matching_vector(&self) -> PerLayer<f64> {
         self.matching
@@ -97,7 +130,7 @@ fn absolute(stock: &Stock, basis: &Basis) -> Result<PerLayer<f64>, Error> {
         return Err(refuse("characteristic curves over lux s, but the sheet's axis is relative"));
     }
     // mJ/m^2 of white light at scene value 1, spread over its spectrum.
-    let white_mj = 1000.0 * lux_to_w_per_m2(METERED_LUX_S / speed) / MID_GREY;
+    let white_mj = 1000.0 * lux_to_w_per_m2(MID_GREY_LUX_S / speed) / MID_GREY;
     let scale = white_mj / basis.white().integral();
     stock.characteristic().try_map(|curve, layer| {
         let density = Density(curve.d_min().0 + criterion.0);

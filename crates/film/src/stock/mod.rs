@@ -1,107 +1,113 @@
 //! A film as its data sheet describes it.
 
+mod facts;
 mod sheet;
 
-use onelight_spectra::{NumberTable, SpectralShape};
-use serde::Deserialize;
+use onelight_spectra::SpectralShape;
 
-pub use sheet::{Normalisation, Uncertainty};
+pub use facts::{AimDensities, ExposureAxis, MidGrey, Normalisation, Origin, StockKind, Uncertainty};
 
-use crate::curve::{CharacteristicCurve, Density, Direction, LogExposure};
+use crate::curve::CharacteristicCurve;
 use crate::densitometry::Densitometry;
 use crate::dye::{DyeDensity, Dyes};
 use crate::error::Error;
 use crate::layer::PerLayer;
+use crate::metering::MID_GREY_LUX_S;
+use crate::printable::printable;
+use crate::quantity::{Density, LogExposure};
 use crate::sensitivity::SpectralSensitivity;
+use crate::table::NumberTable;
 
-/// What a film is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum StockKind {
-    /// A camera film that is printed.
-    Negative,
-    /// A camera film that is projected itself.
-    Reversal,
-    /// A film that negatives are printed on.
-    Print,
-}
+/// Most characters of an id that a message repeats.
+const ID_CHARACTERS: usize = 64;
 
-impl StockKind {
-    /// Whether its densities rise or fall with exposure.
-    #[must_use]
-    pub fn direction(self) -> Direction {
-        match self {
-            Self::Negative | Self::Print => Direction::Rising,
-            Self::Reversal => Direction::Falling,
-        }
-    }
-}
-
-/// What the numbers on a characteristic curve's exposure axis are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum ExposureAxis {
-    /// log10 of lux s.
-    LuxSeconds,
-    /// Plotted as log10 of lux s; the scale could not be confirmed.
-    LuxSecondsUnverified,
-    /// Only differences mean something.
-    Relative,
-}
-
-/// Where an 18 % grey card, properly exposed, lies on the exposure axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum MidGrey {
-    /// At the middle of the published range: sheets that plot camera stops about the normal exposure.
-    Centre,
-    /// At 8.1 lux s divided by the exposure index.
-    Speed,
-    /// At 0 of a relative axis.
-    AxisZero,
-}
-
-/// Whether figures were read off the maker's sheet or stand in for what it does not show.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Origin {
-    /// Read off the sheet.
-    Published,
-    /// Computed: the stock's files say how.
-    Derived,
-}
-
-/// The text of a stock's files.
+/// The text of a film's four files, as they stand in a folder of `onelight-stocks`. A film of one's own needs nothing else; the
+/// example at [`Stock`] has all of one.
+///
+/// ```
+/// use onelight_film::{SheetText, Stock};
+/// let error = Stock::parse(&SheetText {
+///     id: "mine",
+///     stock_toml: "version = 1\nname = 'My film'\nspeed = 100\n",
+///     sensitivity_csv: "",
+///     characteristic_csv: "",
+///     dye_density_csv: "",
+/// })
+/// .unwrap_err();
+/// assert!(error.to_string().starts_with("mine/stock.toml:3: unknown field `speed`"), "{error}");
+/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct SheetText<'a> {
     /// Name of the folder, expected to be the `id` in `stock.toml`; messages begin with it.
     pub id: &'a str,
-    /// `stock.toml`
+    /// `stock.toml`: what the film is, what its sheet states, and where each set of figures comes from.
     pub stock_toml: &'a str,
-    /// `sensitivity.csv`
+    /// `sensitivity.csv`: `wavelength_nm`, and log10 of the sensitivity in `red`, `green`, `blue`.
     pub sensitivity_csv: &'a str,
-    /// `characteristic.csv`
+    /// `characteristic.csv`: `log10_exposure`, and the density in `red`, `green`, `blue`.
     pub characteristic_csv: &'a str,
-    /// `dye_density.csv`
+    /// `dye_density.csv`: `wavelength_nm`, and the spectral density of `cyan`, `magenta`, `yellow`, `d_min` and `neutral`; the last
+    /// two may be blank (a negative needs `d_min`).
     pub dye_density_csv: &'a str,
 }
 
-/// Exposure index times lux s of a properly exposed mid grey: the middle of what meters use.
-const MID_GREY_LUX_S: f64 = 8.1;
-
 /// A film: its facts and its three sets of curves.
 ///
+/// One of the built-in films, and a data sheet of one's own (shortened: a real sheet has fifty rows a table):
+///
 /// ```
-/// use onelight_film::{SheetText, Stock, StockKind};
+/// use onelight_film::{LogExposure, SheetText, Stock, StockKind};
+///
 /// let files = onelight_stocks::find("fuji-velvia-50").ok_or("no such stock")?;
-/// let stock = Stock::parse(&SheetText {
+/// let velvia = Stock::parse(&SheetText {
 ///     id: files.id,
 ///     stock_toml: files.stock_toml,
 ///     sensitivity_csv: files.sensitivity_csv,
 ///     characteristic_csv: files.characteristic_csv,
 ///     dye_density_csv: files.dye_density_csv,
 /// })?;
-/// assert_eq!(stock.kind(), StockKind::Reversal);
+/// assert_eq!(velvia.kind(), StockKind::Reversal);
+///
+/// let mine = Stock::parse(&SheetText {
+///     id: "mine",
+///     stock_toml: r#"
+///         version = 1
+///         id = "mine"
+///         name = "My slide film"
+///         maker = "me"
+///         kind = "reversal"
+///         exposure_index = 100
+///         balance = "daylight 5500 K"
+///         process = "E-6"
+///         year = 2024
+///         sheet = "measured with a status A densitometer"
+///
+///         [sensitivity]
+///         origin = "published"
+///
+///         [characteristic]
+///         origin = "published"
+///         densitometry = "status-a"
+///         axis = "lux-seconds"
+///         mid_grey = "speed"
+///
+///         [dye_density]
+///         origin = "published"
+///         normalisation = "peak"
+///
+///         [uncertainty]
+///         origin = "two readings"
+///         sensitivity = [0.02, 0.02, 0.02]
+///         characteristic = [0.01, 0.01, 0.01]
+///         dye_density = [0.01, 0.01, 0.01]
+///     "#,
+///     sensitivity_csv: "wavelength_nm,red,green,blue\n400,,-1,1\n450,-2,0,1.2\n550,0,1.5,-1\n650,1.4,-1,\n700,-1,,\n",
+///     characteristic_csv: "log10_exposure,red,green,blue\n-3,3.2,3.3,3.4\n-1,0.9,1,1\n0.5,0.1,0.1,0.1\n",
+///     dye_density_csv: "wavelength_nm,cyan,magenta,yellow,d_min,neutral\n\
+///         400,0.2,0.1,0.8,,\n450,0.1,0.2,1,,\n550,0.2,1,0.1,,\n650,1,0.1,0,,\n700,0.8,0,0,,\n",
+/// })?;
+/// // 8.1 lux s / ISO 100.
+/// assert_eq!(mine.mid_grey()?, LogExposure(0.081_f64.log10()));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
@@ -125,10 +131,7 @@ impl Stock {
         if sheet.id != text.id {
             return Err(Error::stock(
                 text.id,
-                format!(
-                    "stock.toml has id {:?}, expected that of its folder",
-                    sheet.id.chars().take(64).collect::<String>()
-                ),
+                format!("stock.toml has id {:?}, expected that of its folder", printable(&sheet.id, ID_CHARACTERS)),
             ));
         }
         let sensitivity = NumberTable::parse(&file("sensitivity.csv"), text.sensitivity_csv)?;
@@ -138,26 +141,25 @@ impl Stock {
         let layers = PerLayer::all(());
         let optional = |name: &str| -> Result<Option<DyeDensity>, Error> {
             let published = dye_density.column(name)?.iter().any(Option::is_some);
-            if published { Ok(Some(DyeDensity::base(nodes(&dye_density, "wavelength_nm", name)?)?)) } else { Ok(None) }
+            if published { Ok(Some(DyeDensity::base(dye_density.points("wavelength_nm", name)?)?)) } else { Ok(None) }
         };
         let stock = Self {
             sensitivity: layers
-                .try_map(|(), layer| SpectralSensitivity::new(nodes(&sensitivity, "wavelength_nm", layer)?))?,
+                .try_map(|(), layer| SpectralSensitivity::new(sensitivity.points("wavelength_nm", layer)?))?,
             characteristic: layers.try_map(|(), layer| {
-                let nodes = nodes(&characteristic, "log10_exposure", layer)?;
-                CharacteristicCurve::new(nodes.x, &nodes.y, direction)
+                let points = characteristic.points("log10_exposure", layer)?;
+                CharacteristicCurve::new(points.x, &points.y, direction)
             })?,
-            dyes: PerLayer { red: "cyan", green: "magenta", blue: "yellow" }.try_map(|dye, _| {
-                DyeDensity::dye(nodes(&dye_density, "wavelength_nm", dye)?, sheet.dye_density.base)
-            })?,
+            dyes: PerLayer { red: "cyan", green: "magenta", blue: "yellow" }
+                .try_map(|dye, _| DyeDensity::dye(dye_density.points("wavelength_nm", dye)?, sheet.dye_density.base))?,
             d_min: optional("d_min")?,
             neutral: optional("neutral")?,
             sheet,
         };
         if stock.kind() == StockKind::Negative && stock.d_min.is_none() {
-            return Err(dye_density
-                .problem(1, "d_min is blank, expected values: a negative is printed through it".into())
-                .into());
+            return Err(
+                dye_density.problem(1, "d_min is blank, expected values: a negative is printed through it".into())
+            );
         }
         Ok(stock)
     }
@@ -174,13 +176,13 @@ impl Stock {
         &self.sheet.name
     }
 
-    /// Who made it.
+    /// The company that made it.
     #[must_use]
     pub fn maker(&self) -> &str {
         &self.sheet.maker
     }
 
-    /// What it is for.
+    /// Whether it is a negative, a reversal film or a print film.
     #[must_use]
     pub fn kind(&self) -> StockKind {
         self.sheet.kind
@@ -228,22 +230,23 @@ impl Stock {
         self.sheet.characteristic.axis
     }
 
-    /// The densitometer of the characteristic curves.
+    /// The densitometer that the characteristic curves were read with.
     #[must_use]
     pub fn densitometry(&self) -> Densitometry {
         self.sheet.characteristic.densitometry
     }
 
-    /// What one unit of a dye is.
+    /// What one unit of a dye is: how the sheet's dye curves are scaled.
     #[must_use]
     pub fn normalisation(&self) -> Normalisation {
         self.sheet.dye_density.normalisation
     }
 
-    /// Aim densities of a print's neutral (status A), and whether the sheet states them; `None` for camera films.
+    /// What a printed grey card should measure; `None` for camera films.
     #[must_use]
-    pub fn aim(&self) -> Option<(PerLayer<Density>, Origin)> {
-        self.sheet.aim.as_ref().map(|section| (sheet::aim(section).map(Density), section.origin))
+    pub fn aim(&self) -> Option<AimDensities> {
+        let section = self.sheet.aim.as_ref()?;
+        Some(AimDensities { status_a: PerLayer::from(section.status_a).map(Density), origin: section.origin })
     }
 
     /// How far the figures can be trusted.
@@ -265,13 +268,13 @@ impl Stock {
         parts.into_iter().filter(|(origin, _)| *origin == Some(Origin::Derived)).map(|(_, what)| what).collect()
     }
 
-    /// Spectral sensitivity of each layer.
+    /// Spectral sensitivity of each layer, as published.
     #[must_use]
     pub fn sensitivity(&self) -> PerLayer<&SpectralSensitivity> {
         self.sensitivity.as_ref()
     }
 
-    /// Characteristic curve of each layer.
+    /// Characteristic curve of each layer, as read by [`Stock::densitometry`].
     #[must_use]
     pub fn characteristic(&self) -> PerLayer<&CharacteristicCurve> {
         self.characteristic.as_ref()
@@ -310,12 +313,12 @@ impl Stock {
     /// Where an 18 % grey card lies on the exposure axis, the same for all layers.
     ///
     /// # Errors
-    /// For print films.
+    /// If it is a print film: where its grey lies is an aim of the printer.
     pub fn mid_grey(&self) -> Result<LogExposure, Error> {
         match (self.sheet.characteristic.mid_grey, self.sheet.exposure_index) {
             (Some(MidGrey::Centre), _) => {
                 let middle = self.characteristic.as_ref().map(|curve| {
-                    let (first, last) = curve.range();
+                    let (first, last) = curve.range().into_inner();
                     0.5 * (first.0 + last.0)
                 });
                 Ok(LogExposure(middle.to_array().iter().sum::<f64>() / 3.0))
@@ -325,8 +328,4 @@ impl Stock {
             _ => Err(Error::stock(self.id(), "a print film has no mid grey of its own, expected a camera film")),
         }
     }
-}
-
-fn nodes(table: &NumberTable, x: &str, y: &str) -> Result<onelight_spectra::Nodes, Error> {
-    Ok(table.nodes(x, y)?)
 }

@@ -2,16 +2,16 @@
 
 use serde::Deserialize;
 
-use crate::error::{Error, Kind};
-use crate::layer::PerLayer;
+use crate::error::{Error, ErrorKind};
+use crate::printable::printable;
 
-use super::{ExposureAxis, MidGrey, Origin, StockKind};
+use super::facts::{ExposureAxis, MidGrey, Normalisation, Origin, StockKind, Uncertainty};
 use crate::densitometry::Densitometry;
 
 /// The version of the format that this crate reads.
 pub(super) const VERSION: u32 = 1;
 
-/// More text than any sheet needs.
+/// Most bytes of a `stock.toml`: more than any sheet needs.
 const MAX_BYTES: usize = 64 * 1024;
 /// Most characters of a reader's message, which may repeat what the file has.
 const MESSAGE_CHARACTERS: usize = 300;
@@ -62,16 +62,6 @@ pub(super) struct DyeSection {
     pub(super) d_min: Option<Origin>,
 }
 
-/// What one unit of a dye is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Normalisation {
-    /// A peak density of 1.0.
-    Peak,
-    /// The amount that, with the two others, makes the sheet's neutral.
-    Neutral,
-}
-
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct AimSection {
@@ -79,30 +69,15 @@ pub(super) struct AimSection {
     pub(super) status_a: [f64; 3],
 }
 
-/// How far the figures of a stock can be trusted: rms per layer or dye.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Uncertainty {
-    /// How the figures were found, in words.
-    pub origin: String,
-    /// log10 of sensitivity: red, green, blue.
-    pub sensitivity: [f64; 3],
-    /// Density of the characteristic curves: red, green, blue.
-    pub characteristic: [f64; 3],
-    /// Density of cyan, magenta, yellow; `None` where the dyes are derived.
-    pub dye_density: Option<[f64; 3]>,
-}
-
 pub(super) fn parse(file: &str, text: &str) -> Result<Sheet, Error> {
-    let problem = |line: usize, problem: String| Error::from(Kind::Sheet { file: file.to_owned(), line, problem });
+    let problem = |line: u64, problem: String| Error::from(ErrorKind::Sheet { file: file.to_owned(), line, problem });
     if text.len() > MAX_BYTES {
         return Err(problem(1, format!("{} bytes, expected at most {MAX_BYTES}", text.len())));
     }
     let sheet: Sheet = toml::from_str(text).map_err(|error| {
         let start = error.span().map_or(0, |span| span.start);
-        let line = text.bytes().take(start).filter(|byte| *byte == b'\n').count() + 1;
-        let plain = |c: char| if c.is_control() { ' ' } else { c };
-        problem(line, error.message().trim_end().chars().take(MESSAGE_CHARACTERS).map(plain).collect())
+        let line = text.bytes().take(start).filter(|byte| *byte == b'\n').count() as u64 + 1;
+        problem(line, printable(error.message().trim_end(), MESSAGE_CHARACTERS))
     })?;
     if sheet.version != VERSION {
         return Err(problem(line_of(text, "version"), format!("version: found {}, expected {VERSION}", sheet.version)));
@@ -141,12 +116,8 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Sheet, Error> {
 }
 
 /// Line of the first assignment to `key`, 1 if there is none.
-fn line_of(text: &str, key: &str) -> usize {
-    text.lines().position(|line| line.trim_start().starts_with(key)).map_or(1, |i| i + 1)
-}
-
-pub(super) fn aim(section: &AimSection) -> PerLayer<f64> {
-    PerLayer::from(section.status_a)
+fn line_of(text: &str, key: &str) -> u64 {
+    (1..).zip(text.lines()).find(|(_, line)| line.trim_start().starts_with(key)).map_or(1, |(number, _)| number)
 }
 
 #[cfg(test)]

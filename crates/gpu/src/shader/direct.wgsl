@@ -38,7 +38,7 @@ fn onelight_four_terms(sum: vec3f, terms: OnelightTerms, x: vec3f) -> vec3f {
         + vec3f(terms.weight_red.w, terms.weight_green.w, terms.weight_blue.w) * light.w;
 }
 
-// Twin: `ExponentialSum::apply`. The first groups, which are all that a fitted form has, stand at fixed places: their numbers
+// Twin: `ExponentialSum::apply`. The first groups, which are all that a fitted form has, stand at fixed positions: their numbers
 // are then operands, not loads.
 fn onelight_print(x: vec3f) -> vec3f {
     let count = onelight_look.print_count;

@@ -6,7 +6,7 @@ use wgpu::TextureFormat::{Rgba16Float, Rgba32Float};
 
 use crate::adapter::gpu;
 use crate::looks::{SIZE, apply, colours, looks};
-use crate::picture::{Way, develop, floats, largest, source};
+use crate::picture::{Verb, develop, floats, largest, source};
 
 /// As in the parity tests; a baked entry has the error of the direct form, a read one is a mean of four.
 const PARITY: f32 = 1e-5;
@@ -25,18 +25,18 @@ fn a_baked_table_is_that_of_the_cpu() {
         let pass = FilmPass::with_settings(&gpu.device, &gpu.queue, &first.plain, Rgba32Float, &settings).unwrap();
         let filled = TableBake::new(&gpu.device, &gpu.queue, &first.direct, pass.look()).unwrap();
         for look in [first, second] {
-            filled.swap(&gpu.queue, &look.direct).unwrap();
+            filled.upload(&gpu.queue, &look.direct).unwrap();
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             filled.encode(&mut encoder);
             gpu.queue.submit([encoder.finish()]);
-            let found = floats(&develop(gpu, &pass, &source, Way::Encode));
+            let found = floats(&develop(gpu, &pass, &source, Verb::Encode));
 
             let shaper = first.plain.shaper();
             let film = |rgb: [f64; 3]| look.direct.apply(rgb.map(|v| v as f32)).map(f64::from);
             let table = bake(SIZE, shaper, film, |_| {}).unwrap();
             let twin = PlainLut::new(*shaper, table, first.plain.interpolation());
             let difference = largest(&found, pixels.iter().map(|&[r, g, b, _]| apply((&twin).into(), [r, g, b])));
-            eprintln!("{}: bake of {} into {storage:?}: {difference:.1e}", gpu.name, look.name);
+            eprintln!("{}: bake of {} into {storage:?}: {difference:.1e}", gpu.name(), look.name);
             assert!(difference <= bound, "{} {storage:?}: {difference:e}", look.name);
         }
     }

@@ -11,7 +11,7 @@ use wgpu::TextureFormat::Rgba32Float;
 
 use crate::adapter::gpu;
 use crate::looks::{colours, looks};
-use crate::picture::{Way, develop, floats, source};
+use crate::picture::{Verb, develop, floats, source};
 
 /// What the 8 bits of a filter's weights cost a structured table of 32^3, CIEDE2000.
 const LARGEST: f64 = 0.08;
@@ -65,7 +65,7 @@ fn a_filter_stays_within_its_steps() {
     let source = source(gpu, [128, 128], Rgba32Float, &pixels);
     let float32 = gpu.device.features().contains(Features::FLOAT32_FILTERABLE);
     for storage in [Storage::F16, Storage::F32] {
-        let settings = LookSettings { fetch: Fetch::Filtered, storage };
+        let settings = LookSettings { fetch: Fetch::Filtered, storage, ..Default::default() };
         for look in looks() {
             let stored = look.stored(storage);
             for form in [Form::from(&stored.plain), Form::from(&stored.structured)] {
@@ -74,7 +74,7 @@ fn a_filter_stays_within_its_steps() {
                     assert!(pass.unwrap_err().to_string().contains("FLOAT32_FILTERABLE"));
                     continue;
                 }
-                let found = floats(&develop(gpu, &pass.unwrap(), &source, Way::Encode));
+                let found = floats(&develop(gpu, &pass.unwrap(), &source, Verb::Encode));
                 let worst = found.iter().zip(&pixels).map(|(found, &[r, g, b, _])| over(form, [r, g, b], found));
                 let worst = worst.fold(f32::NEG_INFINITY, f32::max);
                 assert!(worst <= 0.0, "{} {} {storage:?}: {worst:e} beyond its steps", look.name, form.kind());

@@ -1,14 +1,14 @@
 //! Targets of every format.
 
-use onelight_gpu::{FilmPass, Form, LookSettings};
+use onelight_gpu::{FilmPass, Form, Headless, LookSettings};
 use onelight_lut::{DirectForm, DirectParts, PowerCoding, Sample as _, Storage};
 use wgpu::TextureFormat::{
     self, Bgra8Unorm, Bgra8UnormSrgb, Rgb10a2Unorm, Rgba8Unorm, Rgba8UnormSrgb, Rgba16Float, Rgba32Float,
 };
 
-use crate::adapter::{Gpu, gpu};
+use crate::adapter::gpu;
 use crate::looks::{apply, coded, colours, looks};
-use crate::picture::{Way, develop, halves, source};
+use crate::picture::{Verb, develop, halves, source};
 
 /// How far a stored code may lie from the exact value, in codes: half of one for rounding, 1e-5 of the largest code for parity,
 /// and what Vulkan leaves to the rounding of conversions.
@@ -25,10 +25,10 @@ fn pixels() -> Vec<[f32; 4]> {
 }
 
 /// Target's bytes for a form with its table in 32-bit floats.
-fn through(gpu: &Gpu, form: Form<'_>, target: TextureFormat, way: Way) -> Vec<u8> {
+fn through(gpu: &Headless, form: Form<'_>, target: TextureFormat, verb: Verb) -> Vec<u8> {
     let settings = LookSettings { storage: Storage::F32, ..Default::default() };
     let pass = FilmPass::with_settings(&gpu.device, &gpu.queue, form, target, &settings).unwrap();
-    develop(gpu, &pass, &source(gpu, SIZE, Rgba32Float, &pixels()), way)
+    develop(gpu, &pass, &source(gpu, SIZE, Rgba32Float, &pixels()), verb)
 }
 
 /// Codes of red, green, blue, alpha, as fractions of nothing: whole numbers.
@@ -57,11 +57,11 @@ fn integers_are_the_nearest_codes() {
     let Some(gpu) = gpu() else { return };
     let formats = [(Rgba8Unorm, 255.0, UNORM8), (Bgra8Unorm, 255.0, UNORM8), (Rgb10a2Unorm, 1023.0, UNORM10)];
     for (target, count, bound) in formats {
-        for way in [Way::Encode, Way::Draw] {
+        for verb in [Verb::Encode, Verb::Draw] {
             for form in looks().iter().flat_map(|look| look.forms()) {
-                let codes = codes(&through(gpu, form, target, way), target);
+                let codes = codes(&through(gpu, form, target, verb), target);
                 let furthest = furthest(&codes, form, count);
-                assert!(furthest <= bound, "{target:?} {way:?} {}: {furthest} codes", form.kind());
+                assert!(furthest <= bound, "{target:?} {verb:?} {}: {furthest} codes", form.kind());
                 for (code, pixel) in codes.iter().zip(pixels()) {
                     let most = if target == Rgb10a2Unorm { 3.0 } else { 255.0 };
                     assert!((code[3] - most * pixel[3]).abs() <= 0.51, "alpha {} became {}", pixel[3], code[3]);
@@ -80,7 +80,7 @@ fn an_srgb_view_stores_the_same_bytes() {
         let gamma = DirectForm::new(DirectParts { coding: gamma, ..look.direct.parts().clone() }).unwrap();
         for form in look.forms().into_iter().chain([(&coded).into(), (&gamma).into()]) {
             for target in [Rgba8UnormSrgb, Bgra8UnormSrgb] {
-                let furthest = furthest(&codes(&through(gpu, form, target, Way::Encode), target), form, 255.0);
+                let furthest = furthest(&codes(&through(gpu, form, target, Verb::Encode), target), form, 255.0);
                 assert!(furthest <= SRGB8, "{target:?} {}: {furthest} codes", form.kind());
             }
         }
@@ -90,9 +90,9 @@ fn an_srgb_view_stores_the_same_bytes() {
 #[test]
 fn half_floats_are_next_to_the_value() {
     let Some(gpu) = gpu() else { return };
-    for way in [Way::Encode, Way::Draw] {
+    for verb in [Verb::Encode, Verb::Draw] {
         for form in looks().iter().flat_map(|look| look.forms()) {
-            for (found, [r, g, b, a]) in halves(&through(gpu, form, Rgba16Float, way)).into_iter().zip(pixels()) {
+            for (found, [r, g, b, a]) in halves(&through(gpu, form, Rgba16Float, verb)).into_iter().zip(pixels()) {
                 let [x, y, z] = apply(form, [r, g, b]);
                 for (found, v) in found.into_iter().zip([x, y, z, a]) {
                     // Rounded either way: within one step of a half float, which has 11 bits.
@@ -108,7 +108,7 @@ fn half_floats_are_next_to_the_value() {
 fn integers_of_the_cpu_are_the_same_codes() {
     let Some(gpu) = gpu() else { return };
     let form = (&looks()[0].direct).into();
-    let found = codes(&through(gpu, form, Rgba8Unorm, Way::Encode), Rgba8Unorm);
+    let found = codes(&through(gpu, form, Rgba8Unorm, Verb::Encode), Rgba8Unorm);
     let same = |(found, [r, g, b, _]): (&[f32; 4], [f32; 4])| {
         let expected = apply(form, [r, g, b]).map(u8::from_f32).map(f32::from);
         (0..3).all(|c| (found[c] - expected[c]).abs() <= 1.0)
@@ -124,6 +124,6 @@ fn linear_light_is_encoded_by_an_srgb_view() {
     let Some(gpu) = gpu() else { return };
     let coded = &looks()[0].direct;
     let linear = DirectForm::new(DirectParts { coding: PowerCoding::LINEAR, ..coded.parts().clone() }).unwrap();
-    let found = codes(&through(gpu, (&linear).into(), Rgba8UnormSrgb, Way::Encode), Rgba8UnormSrgb);
+    let found = codes(&through(gpu, (&linear).into(), Rgba8UnormSrgb, Verb::Encode), Rgba8UnormSrgb);
     assert!(furthest(&found, coded.into(), 255.0) <= SRGB8);
 }

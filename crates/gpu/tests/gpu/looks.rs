@@ -9,7 +9,7 @@ use onelight_lut::{
     bake,
 };
 
-pub(crate) struct Look {
+pub(crate) struct LookForms {
     pub(crate) name: &'static str,
     pub(crate) plain: PlainLut,
     pub(crate) structured: StructuredLut,
@@ -19,19 +19,19 @@ pub(crate) struct Look {
 /// Nodes a side: few, so that the steps between them are large.
 pub(crate) const SIZE: usize = 17;
 
-pub(crate) fn looks() -> &'static [Look; 2] {
-    static LOOKS: OnceLock<[Look; 2]> = OnceLock::new();
+pub(crate) fn looks() -> &'static [LookForms; 2] {
+    static LOOKS: OnceLock<[LookForms; 2]> = OnceLock::new();
     LOOKS.get_or_init(|| {
         [look("kodak-5207", Interpolation::Tetrahedral), look("fuji-velvia-50", Interpolation::Trilinear)]
     })
 }
 
-fn look(name: &'static str, interpolation: Interpolation) -> Look {
+fn look(name: &'static str, interpolation: Interpolation) -> LookForms {
     let film: Reference = Process::for_camera(name).unwrap().compile().unwrap();
     let shaper = Shaper::log2(0.02, 11.52).unwrap();
     let table = bake(SIZE, &shaper, |rgb| film.develop(rgb), |_| {}).unwrap();
     let settings = StructuredSettings { size: SIZE, entries: Entries::Sampled, interpolation, ..Default::default() };
-    Look {
+    LookForms {
         name,
         plain: PlainLut::new(shaper, table, interpolation),
         structured: film.structured(&settings).unwrap(),
@@ -39,7 +39,7 @@ fn look(name: &'static str, interpolation: Interpolation) -> Look {
     }
 }
 
-impl Look {
+impl LookForms {
     pub(crate) fn forms(&self) -> [Form<'_>; 3] {
         [(&self.plain).into(), (&self.structured).into(), (&self.direct).into()]
     }
@@ -57,9 +57,9 @@ impl Look {
 }
 
 /// The structured look with display-coded entries.
-pub(crate) fn coded(look: &Look) -> StructuredLut {
+pub(crate) fn coded(look: &LookForms) -> StructuredLut {
     let lut = &look.structured;
-    let entries = lut.parts().table.entries().iter().map(|&entry| lut.decode(entry)).collect();
+    let entries = lut.parts().table.entries().map(|entry| lut.decode(entry)).collect();
     let table = Lut3d::new(SIZE, entries).unwrap();
     StructuredLut::new(StructuredParts { table, decode: Decode::Coded, ..lut.parts().clone() }).unwrap()
 }

@@ -1,110 +1,59 @@
 //! Pictures to textures, through a pass, and back.
 
 use half::f16;
-use onelight_gpu::FilmPass;
+use onelight_gpu::{FilmPass, Headless};
 use wgpu::{
-    Buffer, BufferDescriptor, BufferUsages, CommandEncoder, Extent3d, LoadOp, MapMode, Operations, PollType,
-    RenderPassColorAttachment, RenderPassDescriptor, StoreOp, TexelCopyBufferInfo, TexelCopyBufferLayout, Texture,
-    TextureDescriptor, TextureDimension, TextureFormat, TextureUsages,
+    CommandEncoder, LoadOp, Operations, RenderPassColorAttachment, RenderPassDescriptor, StoreOp, Texture,
+    TextureFormat, TextureUsages, TextureView,
 };
 
-use crate::adapter::Gpu;
-
-pub(crate) fn texture(gpu: &Gpu, size: [u32; 2], format: TextureFormat, usage: TextureUsages) -> Texture {
-    gpu.device.create_texture(&TextureDescriptor {
-        label: None,
-        size: extent(size),
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: TextureDimension::D2,
-        format,
-        usage,
-        view_formats: &[],
-    })
-}
-
 /// A texture of `Rgba32Float` or `Rgba16Float` with these pixels.
-pub(crate) fn source(gpu: &Gpu, size: [u32; 2], format: TextureFormat, pixels: &[[f32; 4]]) -> Texture {
+pub(crate) fn source(gpu: &Headless, size: [u32; 2], format: TextureFormat, pixels: &[[f32; 4]]) -> Texture {
     let bytes: Vec<u8> = match format {
         TextureFormat::Rgba16Float => pixels.iter().flatten().flat_map(|&v| f16::from_f32(v).to_ne_bytes()).collect(),
         _ => pixels.iter().flatten().flat_map(|v| v.to_ne_bytes()).collect(),
     };
-    let texture = texture(gpu, size, format, TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST);
-    gpu.queue.write_texture(texture.as_image_copy(), &bytes, row_layout(&texture), extent(size));
-    texture
+    gpu.upload(size, format, &bytes).unwrap()
 }
 
+/// Which of a pass's two verbs is tried.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Way {
+pub(crate) enum Verb {
     Encode,
     Draw,
 }
 
 /// `source` through a pass; the bytes of the target.
-pub(crate) fn develop(gpu: &Gpu, pass: &FilmPass, source: &Texture, way: Way) -> Vec<u8> {
-    let size = [source.width(), source.height()];
-    let usage = match way {
-        Way::Encode => pass.target_usage(),
-        Way::Draw => TextureUsages::RENDER_ATTACHMENT,
-    };
-    let target = texture(gpu, size, pass.target_format(), usage | TextureUsages::COPY_SRC);
-    let [from, to] = [source, &target].map(|texture| texture.create_view(&Default::default()));
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    match way {
-        Way::Encode => pass.encode(&mut encoder, &from, &to).unwrap(),
-        Way::Draw => {
-            let mut render = encoder.begin_render_pass(&RenderPassDescriptor {
-                color_attachments: &[Some(RenderPassColorAttachment {
-                    view: &to,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: Operations { load: LoadOp::Clear(wgpu::Color::GREEN), store: StoreOp::Store },
-                })],
-                ..Default::default()
-            });
-            pass.draw(&mut render, &from).unwrap();
+pub(crate) fn develop(gpu: &Headless, pass: &FilmPass, source: &Texture, verb: Verb) -> Vec<u8> {
+    match verb {
+        Verb::Encode => gpu.develop(pass, source).unwrap(),
+        Verb::Draw => {
+            let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC;
+            let target = gpu.texture([source.width(), source.height()], pass.target_format(), usage).unwrap();
+            let [from, to] = [source, &target].map(view);
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            draw(&mut encoder, pass, &from, &to);
+            gpu.queue.submit([encoder.finish()]);
+            gpu.read_back(&target).unwrap()
         }
     }
-    read(gpu, encoder, &target)
 }
 
-/// Ends the encoder, submits it, and reads the texture's rows.
-pub(crate) fn read(gpu: &Gpu, mut encoder: CommandEncoder, texture: &Texture) -> Vec<u8> {
-    let row = texture.width() * texel(texture);
-    let padded = row.next_multiple_of(256);
-    let rows = texture.height() * texture.depth_or_array_layers();
-    let buffer = gpu.device.create_buffer(&BufferDescriptor {
-        label: None,
-        size: u64::from(padded) * u64::from(rows),
-        usage: BufferUsages::COPY_DST | BufferUsages::MAP_READ,
-        mapped_at_creation: false,
+pub(crate) fn view(texture: &Texture) -> TextureView {
+    texture.create_view(&Default::default())
+}
+
+fn draw(encoder: &mut CommandEncoder, pass: &FilmPass, from: &TextureView, to: &TextureView) {
+    let mut render = encoder.begin_render_pass(&RenderPassDescriptor {
+        color_attachments: &[Some(RenderPassColorAttachment {
+            view: to,
+            depth_slice: None,
+            resolve_target: None,
+            ops: Operations { load: LoadOp::Clear(wgpu::Color::GREEN), store: StoreOp::Store },
+        })],
+        ..Default::default()
     });
-    let layout =
-        TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded), rows_per_image: Some(texture.height()) };
-    let to = TexelCopyBufferInfo { buffer: &buffer, layout };
-    encoder.copy_texture_to_buffer(texture.as_image_copy(), to, texture.size());
-    gpu.queue.submit([encoder.finish()]);
-    mapped(gpu, &buffer, row as usize, padded as usize)
-}
-
-fn mapped(gpu: &Gpu, buffer: &Buffer, row: usize, padded: usize) -> Vec<u8> {
-    buffer.slice(..).map_async(MapMode::Read, |result| result.unwrap());
-    gpu.device.poll(PollType::wait_indefinitely()).unwrap();
-    let bytes = buffer.slice(..).get_mapped_range().unwrap().to_vec();
-    bytes.chunks(padded).flat_map(|line| &line[..row]).copied().collect()
-}
-
-fn texel(texture: &Texture) -> u32 {
-    texture.format().block_copy_size(None).unwrap()
-}
-
-fn row_layout(texture: &Texture) -> TexelCopyBufferLayout {
-    let bytes_per_row = Some(texture.width() * texel(texture));
-    TexelCopyBufferLayout { offset: 0, bytes_per_row, rows_per_image: Some(texture.height()) }
-}
-
-fn extent([width, height]: [u32; 2]) -> Extent3d {
-    Extent3d { width, height, depth_or_array_layers: 1 }
+    pass.draw(&mut render, from).unwrap();
 }
 
 /// Bytes as pixels of 32-bit floats.

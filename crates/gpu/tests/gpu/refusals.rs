@@ -1,13 +1,12 @@
 //! What does not fit is refused in one sentence, and changes nothing.
 
-use onelight_gpu::{BoundLook, FilmPass, Form, LookSettings};
+use onelight_gpu::{Bindings, BoundLook, FilmPass, Form, LookSettings};
 use onelight_lut::{DirectForm, DirectParts, ExponentialSum, ExponentialTerm, Lut1d, Lut3d, PlainLut, Storage};
 use wgpu::TextureFormat::{R8Unorm, Rgba8Unorm, Rgba16Float};
-use wgpu::TextureUsages;
 
 use crate::adapter::gpu;
 use crate::looks::{colours, looks};
-use crate::picture::{Way, develop, source, texture};
+use crate::picture::{Verb, develop, source};
 
 fn with_curves(form: &DirectForm, size: usize) -> DirectForm {
     let curves = Lut1d::sample(size, [-10.0, 10.0], |x| x).unwrap();
@@ -50,19 +49,19 @@ fn looks_that_do_not_fit_change_nothing() {
     ];
     for (first, second, sentence) in cases {
         let pass = FilmPass::new(&gpu.device, &gpu.queue, first, Rgba8Unorm).unwrap();
-        let before = develop(gpu, &pass, &source, Way::Encode);
-        let error = pass.swap(&gpu.queue, second).unwrap_err();
+        let before = develop(gpu, &pass, &source, Verb::Encode);
+        let error = pass.upload(&gpu.queue, second).unwrap_err();
         assert_eq!(error.to_string(), sentence);
-        assert!(before == develop(gpu, &pass, &source, Way::Encode));
+        assert!(before == develop(gpu, &pass, &source, Verb::Encode));
     }
     // The most that fits.
     let pass = FilmPass::new(&gpu.device, &gpu.queue, &look.direct, Rgba8Unorm).unwrap();
-    pass.swap(&gpu.queue, &with_curves(&look.direct, 2048)).unwrap();
-    pass.swap(&gpu.queue, &with_terms(&look.direct, 128)).unwrap();
+    pass.upload(&gpu.queue, &with_curves(&look.direct, 2048)).unwrap();
+    pass.upload(&gpu.queue, &with_terms(&look.direct, 128)).unwrap();
 }
 
 #[test]
-fn textures_and_settings_are_checked() {
+fn formats_and_settings_are_checked() {
     let Some(gpu) = gpu() else { return };
     let look = &looks()[0];
     let error = FilmPass::new(&gpu.device, &gpu.queue, &look.direct, R8Unorm).unwrap_err().to_string();
@@ -71,18 +70,10 @@ fn textures_and_settings_are_checked() {
     let error = BoundLook::new(&gpu.device, &gpu.queue, &look.plain, &settings).unwrap_err().to_string();
     assert_eq!(error, "storage of the table on the GPU: found Unorm8, expected F16 or F32");
 
-    let pass = FilmPass::new(&gpu.device, &gpu.queue, &look.direct, Rgba8Unorm).unwrap();
-    let usage = pass.target_usage() | TextureUsages::TEXTURE_BINDING;
-    let make = |size, format| texture(gpu, size, format, usage).create_view(&Default::default());
-    let source = make([4, 4], Rgba16Float);
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    let mut refuse = |target| pass.encode(&mut encoder, &source, &target).unwrap_err().to_string();
-    assert_eq!(
-        refuse(make([4, 5], Rgba8Unorm)),
-        "size of the texture to write: found 4x5, expected 4x4 as in the one to read"
-    );
-    assert_eq!(
-        refuse(make([4, 4], Rgba16Float)),
-        "format of the texture to write: found Rgba16Float, expected Rgba8Unorm as the pass was made for"
-    );
+    let settings = LookSettings { bindings: Bindings { group: 0, first: u32::MAX }, ..Default::default() };
+    let error = BoundLook::new(&gpu.device, &gpu.queue, &look.plain, &settings).unwrap_err().to_string();
+    assert!(error.starts_with("first binding of a look: found 4294967295, expected at most "), "{error}");
+    let max = gpu.device.limits().max_bindings_per_bind_group - 4;
+    let settings = LookSettings { bindings: Bindings { group: 0, first: max }, ..Default::default() };
+    BoundLook::new(&gpu.device, &gpu.queue, &look.plain, &settings).unwrap();
 }

@@ -8,7 +8,7 @@ use wgpu::TextureUsages;
 
 use crate::adapter::gpu;
 use crate::looks::looks;
-use crate::picture::{Way, develop, source, texture};
+use crate::picture::{Verb, develop, source, view};
 
 /// Different for neighbours in both directions, so that a pixel out of place is seen.
 fn pixels([width, height]: [u32; 2]) -> Vec<[f32; 4]> {
@@ -31,10 +31,10 @@ fn odd_sizes_are_whole() {
         let from = Pixels::new(&halves, Channels::Rgba, [width, height]).unwrap();
         let mut to = PixelsMut::new(&mut expected, Channels::Rgba, [width, height]).unwrap();
         stored.plain.map(&from, &mut to).unwrap();
-        for way in [Way::Encode, Way::Draw] {
-            let found = develop(gpu, &pass, &source, way);
+        for verb in [Verb::Encode, Verb::Draw] {
+            let found = develop(gpu, &pass, &source, verb);
             let far = found.iter().zip(&expected).position(|(found, expected)| found.abs_diff(*expected) > 1);
-            assert_eq!(far, None, "{size:?} {way:?}");
+            assert_eq!(far, None, "{size:?} {verb:?}");
             assert_eq!(found.len(), expected.len());
         }
     }
@@ -49,9 +49,9 @@ fn larger_pictures_are_refused() {
     for size in [[MAX_SIDE + 1, 1], [1, MAX_SIDE + 1]] {
         for format in [Rgba8Unorm, Rgb10a2Unorm] {
             let pass = FilmPass::new(&gpu.device, &gpu.queue, &looks()[0].direct, format).unwrap();
-            let source = texture(gpu, size, Rgba16Float, TextureUsages::TEXTURE_BINDING);
-            let target = texture(gpu, size, format, pass.target_usage());
-            let [from, to] = [&source, &target].map(|texture| texture.create_view(&Default::default()));
+            let source = gpu.texture(size, Rgba16Float, TextureUsages::TEXTURE_BINDING).unwrap();
+            let target = gpu.texture(size, format, pass.target_usage()).unwrap();
+            let [from, to] = [&source, &target].map(view);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let error = pass.encode(&mut encoder, &from, &to).unwrap_err();
             assert!(error.is_texture());

@@ -1,6 +1,6 @@
 use rayon::prelude::*;
 
-use super::law::Law;
+use super::sampling_law::SamplingLaw;
 use super::scene_coordinates::SceneCoordinates;
 use crate::error::{Error, Kind};
 
@@ -20,14 +20,14 @@ const KEPT_OF: usize = 4;
 /// The budget goes by rounds: all climb a little, then the best quarter of them, then the best quarter of those.
 /// Most climbs end on the same few hills, and only the highest matters.
 pub(super) fn largest(
-    law: &Law,
-    places: &[[f64; 3]],
+    law: &SamplingLaw,
+    colours: &[[f64; 3]],
     differences: &[f64],
     measure: impl Fn([f64; 3]) -> f64 + Sync,
     count_more: &(impl Fn(usize) + Sync),
 ) -> Result<(f64, [f64; 3]), Error> {
     let worst = worst(differences, law.ascents.max(1));
-    let mut climbs: Vec<Climb> = worst.into_iter().map(|i| Climb::new(i, places[i], differences[i])).collect();
+    let mut climbs: Vec<Climb> = worst.into_iter().map(|i| Climb::new(i, colours[i], differences[i])).collect();
     let budget = law.ascents.min(climbs.len()) * law.ascent_steps;
     for round in 0..ROUNDS {
         if round > 0 {
@@ -76,7 +76,7 @@ impl Climb {
     }
 
     /// Climbs for at most so many evaluations; says how many it made.
-    fn run(&mut self, law: &Law, budget: usize, measure: &impl Fn([f64; 3]) -> f64) -> Result<usize, Error> {
+    fn run(&mut self, law: &SamplingLaw, budget: usize, measure: &impl Fn([f64; 3]) -> f64) -> Result<usize, Error> {
         let mut left = budget;
         while left > 0 && self.scale >= LAST_SCALE {
             let base = self.at;
@@ -104,7 +104,7 @@ impl Climb {
     fn attempt(
         &mut self,
         [stops, saturation, hue]: [f64; 3],
-        law: &Law,
+        law: &SamplingLaw,
         left: &mut usize,
         measure: &impl Fn([f64; 3]) -> f64,
     ) -> Result<bool, Error> {
@@ -145,7 +145,7 @@ mod tests {
 
     #[test]
     fn a_climb_stays_in_the_domain_and_in_its_budget() {
-        let law = Law { stops: [-1.0, 1.0], ..Law::default() };
+        let law = SamplingLaw { stops: [-1.0, 1.0], ..SamplingLaw::default() };
         // Uphill to more light and more saturation, for ever.
         let measure = |[r, g, b]: [f64; 3]| r + g - 3.0 * b;
         let start = [0.2, 0.1, 0.1];

@@ -1,39 +1,38 @@
-use serde::Serialize;
-
-use super::law::Law;
+use super::sampling_law::SamplingLaw;
 use crate::deviation::Deviation;
 use crate::error::Error;
 use crate::scene_sampler::SceneSampler;
 
 /// The difference over the drawn colours of one range of exposure.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Band {
     /// The range of the largest channel, in stops about mid grey; the lower end belongs to the band.
     pub stops: [f64; 2],
     /// The differences; serialised beside `stops`, not below a name of their own.
-    #[serde(flatten)]
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub deviation: Deviation,
 }
 
 /// The drawn colours by exposure, darkest first.
-pub(super) fn bands(law: &Law, places: &[[f64; 3]], differences: &[f64]) -> Result<Vec<Band>, Error> {
+pub(super) fn bands(law: &SamplingLaw, colours: &[[f64; 3]], differences: &[f64]) -> Result<Vec<Band>, Error> {
     let [low, high] = law.stops;
     let count = (((high - low) / law.band_width).ceil() as usize).max(1);
     let mut members: Vec<(Vec<[f64; 3]>, Vec<f64>)> = vec![(Vec::new(), Vec::new()); count];
-    for (place, difference) in places.iter().zip(differences) {
-        let stops = (place.iter().copied().fold(0.0, f64::max) / SceneSampler::MID_GREY).log2();
+    for (colour, difference) in colours.iter().zip(differences) {
+        let stops = (colour.iter().copied().fold(0.0, f64::max) / SceneSampler::MID_GREY).log2();
         // A float to integer cast saturates, so rounding at the ends cannot leave the list.
         let index = (((stops - low) / law.band_width) as usize).min(count - 1);
-        members[index].0.push(*place);
+        members[index].0.push(*colour);
         members[index].1.push(*difference);
     }
-    let filled = members.into_iter().enumerate().filter(|(_, (places, _))| !places.is_empty());
+    let filled = members.into_iter().enumerate().filter(|(_, (colours, _))| !colours.is_empty());
     filled
-        .map(|(index, (places, differences))| {
+        .map(|(index, (colours, differences))| {
             let from = low + index as f64 * law.band_width;
             let stops = [from, (from + law.band_width).min(high)];
-            Ok(Band { stops, deviation: Deviation::of(&places, differences)? })
+            Ok(Band { stops, deviation: Deviation::of(&colours, differences)? })
         })
         .collect()
 }

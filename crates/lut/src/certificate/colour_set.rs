@@ -1,6 +1,4 @@
-use serde::Serialize;
-
-use super::samples::Compared;
+use super::compared::Compared;
 use crate::deviation::Deviation;
 use crate::error::{Error, Kind};
 
@@ -9,6 +7,13 @@ const STOPS: std::ops::RangeInclusive<i32> = -4..=4;
 const EXPOSURES: usize = 9;
 
 /// Named colours of the caller, such as the patches of a chart.
+///
+/// ```
+/// use onelight_lut::ColourSet;
+/// let skin = ColourSet::new("skin", [("light", [0.56, 0.39, 0.31]), ("dark", [0.16, 0.08, 0.06])])?;
+/// assert_eq!(skin.name(), "skin");
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColourSet {
     name: String,
@@ -46,16 +51,17 @@ impl ColourSet {
 }
 
 /// The difference over a [`ColourSet`], each colour at -4 to +4 stops by 1.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct SetDeviation {
     /// What the set is called.
     pub name: String,
     /// The number of colours times that of exposures.
     pub count: usize,
-    /// The mean difference.
+    /// The mean difference over all exposures.
     pub mean: f64,
-    /// The largest difference.
+    /// The largest difference, that of `worst`.
     pub max: f64,
     /// The name of the colour with the largest difference.
     pub worst_name: String,
@@ -82,8 +88,7 @@ pub(super) fn measure(
             let range = from..from + set.colours.len() * EXPOSURES;
             from = range.end;
             let differences = &differences[range.clone()];
-            let found = Deviation::of(&named.places[range], differences.to_vec())?;
-            let worst = differences.iter().position(|&d| d >= found.max).unwrap_or(0);
+            let (found, worst) = Deviation::with_worst_index(&named.colours[range], differences.to_vec())?;
             Ok(SetDeviation {
                 name: set.name.clone(),
                 count: found.count,

@@ -1,13 +1,12 @@
-use serde::Serialize;
-
-use super::samples::Compared;
+use super::compared::Compared;
 
 /// Places where a map turns space inside out: two colours of the scene swap sides there.
 ///
 /// At every place the 3x3 of local contrast is taken, change of the picture over change of the scene, both in
 /// stops, by central differences in each channel. Where the sign of its determinant is not the reference's, the
 /// candidate has a fold.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Folds {
     /// How many places were looked at: the greys and the law's first colours.
@@ -52,9 +51,9 @@ pub(super) fn stencil(centre: [f64; 3]) -> [[f64; 3]; STENCIL] {
 
 pub(super) fn count(stencils: &Compared<'_>) -> Folds {
     let mut found = Folds { places: 0, clipped: 0, flat: 0, folds: 0, first: None };
-    let places = stencils.places.chunks_exact(STENCIL);
+    let centres = stencils.colours.chunks_exact(STENCIL);
     let reference = stencils.reference.chunks_exact(STENCIL);
-    for ((colours, reference), candidate) in places.zip(reference).zip(stencils.candidate.chunks_exact(STENCIL)) {
+    for ((colours, reference), candidate) in centres.zip(reference).zip(stencils.candidate.chunks_exact(STENCIL)) {
         found.places += 1;
         let want = Contrast::of(reference);
         if reference.iter().flatten().any(|v| !(MARGIN..=1.0 - MARGIN).contains(v)) {

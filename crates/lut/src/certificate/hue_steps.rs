@@ -1,6 +1,4 @@
-use serde::Serialize;
-
-use super::samples::Compared;
+use super::compared::Compared;
 use super::scene_coordinates::SceneCoordinates;
 use crate::error::{Error, Kind};
 
@@ -17,7 +15,8 @@ const STEPS: usize = 720;
 ///
 /// A map that is smooth elsewhere may crease where saturated hues pass a face or an edge of a table's cells.
 /// Hues are those of the hexagon: red 0, yellow 60, green 120 degrees and so on.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct HueSteps {
     /// The exposure of the largest channel, in stops about mid grey.

@@ -1,22 +1,21 @@
-use serde::Serialize;
-
-use super::law::Law;
-use super::samples::Compared;
+use super::compared::Compared;
+use super::sampling_law::SamplingLaw;
 use super::scene_coordinates::grey;
 use crate::deviation::Deviation;
 use crate::error::{Error, Kind};
 
 /// A map on greys, from the darkest to the brightest stop of the law.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct NeutralAxis {
-    /// The number of greys.
+    /// The number of greys that were looked at.
     pub count: usize,
     /// The distance of neighbours, in stops.
     pub step: f64,
-    /// The mean difference.
+    /// The mean difference over all greys.
     pub mean: f64,
-    /// The largest difference.
+    /// The largest difference among the greys.
     pub max: f64,
     /// The exposure of the grey with the largest difference, in stops about mid grey.
     pub worst_stops: f64,
@@ -27,7 +26,8 @@ pub struct NeutralAxis {
 }
 
 /// The largest fall of luminance from a grey to the next brighter one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Fall {
     /// By how much, in the unit of [`Maps::luminance`](crate::Maps::luminance); 0 if luminance never falls.
@@ -36,8 +36,8 @@ pub struct Fall {
     pub stops: Option<f64>,
 }
 
-/// Scene-linear greys, darkest first.
-pub(super) fn greys(law: &Law) -> impl Iterator<Item = [f64; 3]> {
+/// The greys of the law, scene-linear, darkest first.
+pub(super) fn greys(law: &SamplingLaw) -> impl Iterator<Item = [f64; 3]> {
     /// So that a step that divides the range reaches its end in spite of rounding.
     const SLACK: f64 = 1e-9;
     let last = ((law.stops[1] - law.stops[0]) / law.neutral_step + SLACK) as usize;
@@ -46,14 +46,13 @@ pub(super) fn greys(law: &Law) -> impl Iterator<Item = [f64; 3]> {
 }
 
 pub(super) fn measure(
-    law: &Law,
+    law: &SamplingLaw,
     greys: &Compared<'_>,
     difference: &(impl Fn(&[f64; 3], &[f64; 3]) -> f64 + Sync),
     luminance: &impl Fn(&[f64; 3]) -> f64,
 ) -> Result<NeutralAxis, Error> {
     let differences = greys.differences(difference);
-    let found = Deviation::of(greys.places, differences.clone())?;
-    let worst = differences.iter().position(|&d| d >= found.max).unwrap_or(0);
+    let (found, worst) = Deviation::with_worst_index(greys.colours, differences)?;
     Ok(NeutralAxis {
         count: found.count,
         step: law.neutral_step,
@@ -66,7 +65,7 @@ pub(super) fn measure(
 }
 
 fn fall(
-    law: &Law,
+    law: &SamplingLaw,
     values: &[[f64; 3]],
     luminance: &impl Fn(&[f64; 3]) -> f64,
     what: &'static str,
@@ -85,6 +84,6 @@ fn fall(
     Ok(largest)
 }
 
-fn stops_of(law: &Law, index: usize) -> f64 {
+fn stops_of(law: &SamplingLaw, index: usize) -> f64 {
     law.stops[0] + index as f64 * law.neutral_step
 }

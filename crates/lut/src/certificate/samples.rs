@@ -5,21 +5,32 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::colour_set::ColourSet;
-use super::law::{Law, Search};
+use super::compared::Compared;
+use super::sampling_law::{SamplingLaw, Search};
 use super::{colour_set, folds, hue_steps, neutral_axis};
 use crate::deviation::Deviation;
 use crate::error::Error;
 use crate::scene_sampler::SceneSampler;
 
-/// All colours of a [`Law`] with the reference's values there: made once, then held against any number of
+/// All colours of a [`SamplingLaw`] with the reference's values there: made once, then held against any number of
 /// candidates by [`certify`](crate::certify()).
+///
+/// ```
+/// use onelight_lut::{Samples, SamplingLaw};
+/// let law = SamplingLaw { count: 256, ..SamplingLaw::default() };
+/// let samples = Samples::new(&law, &[], |rgb| rgb.map(|u| u / (u + 0.18)), |_colours_done| {})?;
+/// let brighter = |rgb: [f64; 3]| rgb.map(|u| u / (u + 0.17));
+/// let found = samples.deviation(brighter, |a, b| (a[1] - b[1]).abs())?;
+/// assert!(found.max > 0.01 && found.max < 0.02);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone)]
 pub struct Samples {
-    law: Law,
+    law: SamplingLaw,
     sets: Vec<ColourSet>,
     /// Scene-linear; one list for all parts, so that threads share it evenly.
-    places: Vec<[f64; 3]>,
-    /// Display-linear.
+    colours: Vec<[f64; 3]>,
+    /// What the reference makes of each place, display-linear RGB.
     reference: Vec<[f64; 3]>,
     parts: Parts,
 }
@@ -34,13 +45,6 @@ struct Parts {
     stencils: Range<usize>,
 }
 
-/// Two maps on one part of the list.
-pub(super) struct Compared<'a> {
-    pub(super) places: &'a [[f64; 3]],
-    pub(super) reference: &'a [[f64; 3]],
-    pub(super) candidate: &'a [[f64; 3]],
-}
-
 impl Samples {
     /// Evaluates the reference, scene-linear RGB to display-linear RGB, at every colour of a law and of the
     /// caller's own sets, on all threads.
@@ -52,34 +56,34 @@ impl Samples {
     ///
     /// If a field of the law is out of bounds; the error names it.
     pub fn new(
-        law: &Law,
+        law: &SamplingLaw,
         sets: &[ColourSet],
         reference: impl Fn([f64; 3]) -> [f64; 3] + Sync,
         progress: impl Fn(usize) + Sync,
     ) -> Result<Self, Error> {
         law.check()?;
         let sampler = SceneSampler::with_seed(law.stops[0]..=law.stops[1], law.seed)?;
-        let mut places: Vec<[f64; 3]> = sampler.clone().take(law.count).collect();
-        let drawn = 0..places.len();
-        places.extend(neutral_axis::greys(law));
-        let greys = drawn.end..places.len();
-        places.extend(sets.iter().flat_map(colour_set::exposed));
-        let named = greys.end..places.len();
-        places.extend(hue_steps::circles());
-        let circles = named.end..places.len();
+        let mut colours: Vec<[f64; 3]> = sampler.clone().take(law.count).collect();
+        let drawn = 0..colours.len();
+        colours.extend(neutral_axis::greys(law));
+        let greys = drawn.end..colours.len();
+        colours.extend(sets.iter().flat_map(colour_set::exposed));
+        let named = greys.end..colours.len();
+        colours.extend(hue_steps::circles());
+        let circles = named.end..colours.len();
         let centres = neutral_axis::greys(law).chain(sampler.take(law.fold_places));
-        places.extend(centres.flat_map(folds::stencil));
-        let stencils = circles.end..places.len();
+        colours.extend(centres.flat_map(folds::stencil));
+        let stencils = circles.end..colours.len();
 
         let done = AtomicUsize::new(0);
-        let reference = values(&places, &reference, &|more| progress(done.fetch_add(more, Ordering::Relaxed) + more));
+        let reference = values(&colours, &reference, &|more| progress(done.fetch_add(more, Ordering::Relaxed) + more));
         let parts = Parts { drawn, greys, named, circles, stencils };
-        Ok(Self { law: law.clone(), sets: sets.to_vec(), places, reference, parts })
+        Ok(Self { law: law.clone(), sets: sets.to_vec(), colours, reference, parts })
     }
 
     /// The law that the colours follow.
     #[must_use]
-    pub fn law(&self) -> &Law {
+    pub fn law(&self) -> &SamplingLaw {
         &self.law
     }
 
@@ -87,8 +91,8 @@ impl Samples {
     #[must_use]
     pub fn evaluations(&self, search: Search) -> usize {
         match search {
-            Search::SamplesOnly => self.places.len(),
-            Search::Ascent => self.places.len() + self.law.ascents.min(self.law.count) * self.law.ascent_steps,
+            Search::SamplesOnly => self.colours.len(),
+            Search::Ascent => self.colours.len() + self.law.ascents.min(self.law.count) * self.law.ascent_steps,
         }
     }
 
@@ -103,10 +107,11 @@ impl Samples {
         candidate: impl Fn([f64; 3]) -> [f64; 3] + Sync,
         difference: impl Fn(&[f64; 3], &[f64; 3]) -> f64 + Sync,
     ) -> Result<Deviation, Error> {
-        let places = &self.places[self.parts.drawn.clone()];
-        let candidate = values(places, &candidate, &|_| {});
-        let compared = Compared { places, reference: &self.reference[self.parts.drawn.clone()], candidate: &candidate };
-        Deviation::of(places, compared.differences(&difference))
+        let colours = &self.colours[self.parts.drawn.clone()];
+        let candidate = values(colours, &candidate, &|_| {});
+        let compared =
+            Compared { colours, reference: &self.reference[self.parts.drawn.clone()], candidate: &candidate };
+        Deviation::of(colours, compared.differences(&difference))
     }
 
     pub(super) fn evaluate(
@@ -114,7 +119,7 @@ impl Samples {
         candidate: &(impl Fn([f64; 3]) -> [f64; 3] + Sync),
         count_more: &(impl Fn(usize) + Sync),
     ) -> Vec<[f64; 3]> {
-        values(&self.places, candidate, count_more)
+        values(&self.colours, candidate, count_more)
     }
 
     pub(super) fn sets(&self) -> &[ColourSet] {
@@ -141,10 +146,10 @@ impl Samples {
         self.part(&self.parts.stencils, candidate)
     }
 
-    /// `candidate` has as many entries as `places`: it comes from [`Samples::evaluate`].
+    /// `candidate` has as many entries as `colours`: it comes from [`Samples::evaluate`].
     fn part<'a>(&'a self, range: &Range<usize>, candidate: &'a [[f64; 3]]) -> Compared<'a> {
         Compared {
-            places: &self.places[range.clone()],
+            colours: &self.colours[range.clone()],
             reference: &self.reference[range.clone()],
             candidate: &candidate[range.clone()],
         }
@@ -158,26 +163,19 @@ impl fmt::Debug for Samples {
     }
 }
 
-impl Compared<'_> {
-    /// In the order of the places, whatever the threads.
-    pub(super) fn differences(&self, difference: &(impl Fn(&[f64; 3], &[f64; 3]) -> f64 + Sync)) -> Vec<f64> {
-        self.reference.par_iter().zip(self.candidate).map(|(a, b)| difference(a, b)).collect()
-    }
-}
-
 fn values(
-    places: &[[f64; 3]],
+    colours: &[[f64; 3]],
     map: &(impl Fn([f64; 3]) -> [f64; 3] + Sync),
     count_more: &(impl Fn(usize) + Sync),
 ) -> Vec<[f64; 3]> {
-    /// Large beside the cost of telling progress, small beside the whole.
+    /// Large beside the cost of reporting progress, small beside all colours.
     const CHUNK: usize = 256;
-    let mut values = vec![[0.0; 3]; places.len()];
-    values.par_chunks_mut(CHUNK).zip(places.par_chunks(CHUNK)).for_each(|(values, places)| {
-        for (value, &place) in values.iter_mut().zip(places) {
-            *value = map(place);
+    let mut values = vec![[0.0; 3]; colours.len()];
+    values.par_chunks_mut(CHUNK).zip(colours.par_chunks(CHUNK)).for_each(|(values, colours)| {
+        for (value, &colour) in values.iter_mut().zip(colours) {
+            *value = map(colour);
         }
-        count_more(places.len());
+        count_more(colours.len());
     });
     values
 }

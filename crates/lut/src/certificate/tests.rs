@@ -12,7 +12,7 @@ fn film(rgb: [f64; 3]) -> [f64; 3] {
     })
 }
 
-/// About percent of white.
+/// The Euclidean distance of two colours, in percent of white.
 fn difference(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     100.0 * a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
 }
@@ -21,8 +21,8 @@ fn luminance(v: &[f64; 3]) -> f64 {
     0.2 * v[0] + 0.7 * v[1] + 0.1 * v[2]
 }
 
-fn law() -> Law {
-    Law { count: 1 << 12, fold_places: 256, ..Law::default() }
+fn law() -> SamplingLaw {
+    SamplingLaw { count: 1 << 12, fold_places: 256, ..SamplingLaw::default() }
 }
 
 fn chart() -> ColourSet {
@@ -30,7 +30,7 @@ fn chart() -> ColourSet {
         .unwrap()
 }
 
-fn certificate_of(law: &Law, search: Search, candidate: impl Fn([f64; 3]) -> [f64; 3] + Sync) -> Certificate {
+fn certificate_of(law: &SamplingLaw, search: Search, candidate: impl Fn([f64; 3]) -> [f64; 3] + Sync) -> Certificate {
     let samples = Samples::new(law, &[chart()], film, |_| {}).unwrap();
     certify(&samples, &Maps { reference: film, candidate, difference, luminance }, search, |_| {}).unwrap()
 }
@@ -71,15 +71,15 @@ fn ascents_find_the_peak_that_samples_miss() {
     for (index, colour) in SceneSampler::with_seed(-9.0..=9.0, 5).unwrap().take(12).enumerate() {
         let peak = SceneCoordinates::of(colour);
         let height = 0.05;
-        let truth = difference(&[0.0; 3], &[height; 3]);
+        let expected = difference(&[0.0; 3], &[height; 3]);
         let found = certificate(bumped(peak, height));
-        assert!(found.max_found > 0.99 * truth && found.max_found <= truth * (1.0 + 1e-9), "{index} {peak:?}");
+        assert!(found.max_found > 0.99 * expected && found.max_found <= expected * (1.0 + 1e-9), "{index} {peak:?}");
         let at = SceneCoordinates::of(found.max_found_at);
         assert!(
             (at.stops - peak.stops).abs() < 0.1 && (at.saturation - peak.saturation).abs() < 0.02,
             "{at:?} {peak:?}"
         );
-        missed += usize::from(found.overall.max < 0.99 * truth);
+        missed += usize::from(found.overall.max < 0.99 * expected);
         let plain = certificate_of(&law(), Search::SamplesOnly, bumped(peak, height));
         assert_eq!((plain.max_found, plain.max_found_at), (plain.overall.max, plain.overall.worst));
         assert_eq!(plain.overall, found.overall);
@@ -96,9 +96,9 @@ fn the_highest_of_several_hills_wins() {
         let broad = 0.04 * (at.stops * std::f64::consts::PI / 2.0).sin().powi(2) * (1.0 - at.saturation);
         bumped(sharp, 0.05)(rgb).map(|v| v + broad)
     };
-    let truth = 0.05 + 0.04 * (1.3 * std::f64::consts::PI / 2.0).sin().powi(2) * 0.67;
+    let expected = 0.05 + 0.04 * (1.3 * std::f64::consts::PI / 2.0).sin().powi(2) * 0.67;
     let found = certificate(map);
-    assert!(found.max_found > 0.99 * difference(&[0.0; 3], &[truth; 3]), "{}", found.max_found);
+    assert!(found.max_found > 0.99 * difference(&[0.0; 3], &[expected; 3]), "{}", found.max_found);
 }
 
 #[test]
@@ -255,13 +255,13 @@ fn samples_serve_many_candidates() {
         calls.fetch_add(1, Ordering::Relaxed);
         film(rgb)
     };
-    let told = AtomicUsize::new(0);
+    let reported = AtomicUsize::new(0);
     let samples = Samples::new(&law(), &[chart()], counted, |done| {
-        told.fetch_max(done, Ordering::Relaxed);
+        reported.fetch_max(done, Ordering::Relaxed);
     })
     .unwrap();
     let made = calls.load(Ordering::Relaxed);
-    assert_eq!((made, told.load(Ordering::Relaxed)), (samples.evaluations(Search::SamplesOnly), made));
+    assert_eq!((made, reported.load(Ordering::Relaxed)), (samples.evaluations(Search::SamplesOnly), made));
 
     for levels in [31.0, 255.0] {
         let candidate = |rgb| film(rgb).map(|v| (v * levels).round() / levels);
@@ -273,23 +273,25 @@ fn samples_serve_many_candidates() {
 
     let candidate = |rgb| film(rgb).map(|v| v + 0.001 * (9.0 * v).sin());
     let maps = Maps { reference: counted, candidate, difference, luminance };
-    told.store(0, Ordering::Relaxed);
+    reported.store(0, Ordering::Relaxed);
     certify(&samples, &maps, Search::Ascent, |done| {
-        told.fetch_max(done, Ordering::Relaxed);
+        reported.fetch_max(done, Ordering::Relaxed);
     })
     .unwrap();
     let climbed = calls.load(Ordering::Relaxed) - made;
     assert!(climbed > 1000 && climbed <= 4000, "{climbed}");
-    assert_eq!(told.load(Ordering::Relaxed), made + climbed);
-    assert!(told.load(Ordering::Relaxed) <= samples.evaluations(Search::Ascent));
+    assert_eq!(reported.load(Ordering::Relaxed), made + climbed);
+    assert!(reported.load(Ordering::Relaxed) <= samples.evaluations(Search::Ascent));
 }
 
 #[test]
 fn seeds_draw_other_colours() {
-    let of = |seed| certificate_of(&Law { seed, ..law() }, Search::SamplesOnly, |rgb| film(rgb).map(f64::sqrt)).overall;
+    let of = |seed| {
+        certificate_of(&SamplingLaw { seed, ..law() }, Search::SamplesOnly, |rgb| film(rgb).map(f64::sqrt)).overall
+    };
     assert_ne!(of(1), of(2));
     assert_eq!(of(2), of(2));
-    assert_ne!(Law::SEED, 0);
+    assert_ne!(SamplingLaw::SEED, 0);
 }
 
 #[test]
@@ -310,15 +312,15 @@ fn what_cannot_be_measured_is_an_error() {
     assert_eq!(error, "luminance of the candidate on the neutral axis: found inf, expected a finite number");
 
     let bad = [
-        Law { count: 0, ..law() },
-        Law { count: usize::MAX, ..law() },
-        Law { stops: [2.0, 1.0], ..law() },
-        Law { stops: [f64::NAN, 1.0], ..law() },
-        Law { band_width: 0.0, ..law() },
-        Law { neutral_step: f64::NAN, ..law() },
-        Law { fold_places: usize::MAX, ..law() },
-        Law { ascents: usize::MAX, ..law() },
-        Law { ascent_steps: usize::MAX, ..law() },
+        SamplingLaw { count: 0, ..law() },
+        SamplingLaw { count: usize::MAX, ..law() },
+        SamplingLaw { stops: [2.0, 1.0], ..law() },
+        SamplingLaw { stops: [f64::NAN, 1.0], ..law() },
+        SamplingLaw { band_width: 0.0, ..law() },
+        SamplingLaw { neutral_step: f64::NAN, ..law() },
+        SamplingLaw { fold_places: usize::MAX, ..law() },
+        SamplingLaw { ascents: usize::MAX, ..law() },
+        SamplingLaw { ascent_steps: usize::MAX, ..law() },
     ];
     for law in bad {
         assert!(Samples::new(&law, &[], film, |_| {}).is_err(), "{law:?}");
@@ -327,12 +329,20 @@ fn what_cannot_be_measured_is_an_error() {
 
 #[test]
 fn small_laws_work() {
-    let law = Law { count: 1, ascents: 0, ascent_steps: 0, fold_places: 0, stops: [1.0, 1.0], ..Law::default() };
+    let law = SamplingLaw {
+        count: 1,
+        ascents: 0,
+        ascent_steps: 0,
+        fold_places: 0,
+        stops: [1.0, 1.0],
+        ..SamplingLaw::default()
+    };
     let found = certificate_of(&law, Search::Ascent, |rgb| film(rgb).map(|v| 0.9 * v));
     assert_eq!((found.bands.len(), found.neutral_axis.count, found.folds.places), (1, 1, 1));
     assert_eq!(found.max_found, found.overall.max);
 }
 
+#[cfg(feature = "serde")]
 #[test]
 fn the_serialised_form_keeps_its_names() {
     let json = serde_json::to_value(certificate(|rgb| film(rgb).map(|v| 0.99 * v))).unwrap();

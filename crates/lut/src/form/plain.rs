@@ -1,15 +1,25 @@
+use fearless_simd::Level;
+
 use crate::interpolate::Interpolation;
+use crate::kernel::block::{Block, BlockMap};
 use crate::kernel::cells::Axes;
 use crate::kernel::lookup::{lookup, lookup_to};
-use crate::kernel::{Block, BlockMap, Level};
 use crate::lut3d::Lut3d;
-use crate::pixels::map_colours;
 use crate::shaper::Shaper;
 
 /// The plain form: a shaper on every channel, then one fetch from a 3D table.
 ///
 /// Input is scene-linear, output is whatever coding was baked. Any input, NaN and infinities included, reads a
 /// place in the table.
+///
+/// ```
+/// use onelight_lut::{Interpolation, PlainLut, Shaper, bake};
+/// let shaper = Shaper::log2(0.02, 4.0)?;
+/// let table = bake(33, &shaper, |rgb| rgb.map(|u| u / (u + 0.18)), |_nodes_done| {})?;
+/// let form = PlainLut::new(shaper, table, Interpolation::Tetrahedral);
+/// assert!((form.apply([0.18; 3])[1] - 0.5).abs() < 1e-3);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlainLut {
     shaper: Shaper,
@@ -28,7 +38,7 @@ impl PlainLut {
         &self.shaper
     }
 
-    /// The table.
+    /// The table that is read at the shaper's coordinates.
     pub fn table(&self) -> &Lut3d {
         &self.table
     }
@@ -40,14 +50,14 @@ impl PlainLut {
 
     /// The baked coding of one scene-linear colour.
     #[inline]
-    pub fn apply(&self, linear: [f32; 3]) -> [f32; 3] {
-        let coordinates = linear.map(|u| self.shaper.encode_f32(u));
-        self.table.apply(coordinates, self.interpolation)
+    pub fn apply(&self, [red, green, blue]: [f32; 3]) -> [f32; 3] {
+        let coordinate = |u| self.shaper.encode_f32(u);
+        self.table.read(coordinate(red), coordinate(green), coordinate(blue), self.interpolation)
     }
 
-    /// [`PlainLut::apply`] to every pixel in place, on all threads.
-    pub fn apply_to_slice(&self, pixels: &mut [[f32; 3]]) {
-        map_colours(self, pixels);
+    /// [`PlainLut::apply`] in float64, from the same stored numbers.
+    pub(crate) fn apply_f64(&self, linear: [f64; 3]) -> [f64; 3] {
+        self.table.apply_f64(linear.map(|u| self.shaper.encode(u)), self.interpolation)
     }
 }
 
@@ -64,7 +74,7 @@ impl BlockMap for PlainLut {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{SceneSampler, bake};
+    use crate::{PixelMap, SceneSampler, bake};
     use approx::assert_abs_diff_eq;
 
     fn look(rgb: [f64; 3]) -> [f64; 3] {
@@ -112,7 +122,7 @@ mod tests {
             SceneSampler::new(-8.0..=6.0).unwrap().take(20_017).map(|rgb| rgb.map(|u| u as f32)).collect();
         pixels[5] = [f32::NAN, f32::INFINITY, -1.0];
         let want: Vec<_> = pixels.iter().map(|&rgb| lut.apply(rgb)).collect();
-        lut.apply_to_slice(&mut pixels);
+        lut.map_colours(&mut pixels);
         for (found, want) in pixels.as_flattened().iter().zip(want.as_flattened()) {
             assert_abs_diff_eq!(found, want, epsilon = 1e-5);
         }

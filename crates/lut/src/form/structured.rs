@@ -1,60 +1,64 @@
-use glam::{Mat3, Vec3};
+use fearless_simd::Level;
 
 use crate::coding::PowerCoding;
-use crate::error::{Error, Kind};
+use crate::error::Error;
 use crate::interpolate::Interpolation;
+use crate::kernel::block::{Block, BlockMap, interleave};
 use crate::kernel::cells::Axes;
 use crate::kernel::coding::decode_density;
 use crate::kernel::curves::Curves;
 use crate::kernel::expose::{affine, expose};
-use crate::kernel::log2_exp2::{exp2, log2};
-use crate::kernel::lookup::{interleave, lookup, lookup_to};
-use crate::kernel::{Block, BlockMap, Level};
+use crate::kernel::lookup::{lookup, lookup_to};
 use crate::lut1d::Lut1d;
 use crate::lut3d::Lut3d;
-use crate::pixels::map_colours;
-
-/// The brightest input: more would overflow `f32` in the matrices.
-pub const INPUT_MAX: f32 = 1e30;
-
-/// Smallest value whose logarithm is taken: no logarithm of 0.
-pub const LOG_FLOOR: f32 = 1e-12;
-
-/// A 3x3 matrix, row by row: `out[i] = sum over k of rows[i][k] in[k]`.
-pub type Rows = [[f32; 3]; 3];
+use crate::number::Number;
+use crate::scene_light::{Rows, check_rows, log2_exposure, times};
 
 /// The structured form: one fetch from a 3D table whose axes are bent and mixed to fit, so that few nodes do and any input
 /// is in range.
 ///
-/// 1. `input` matrix, clamped to [0, [`INPUT_MAX`]]
-/// 2. `exposure` matrix, log2 (of at least [`LOG_FLOOR`]), a curve on each channel
+/// 1. `input` matrix, clamped to [0, [`SCENE_MAX`](crate::SCENE_MAX)]
+/// 2. `exposure` matrix, log2 (of at least [`LOG_FLOOR`](crate::LOG_FLOOR)), a curve on each channel
 /// 3. where there is a `mix`: a matrix with offset, and a second curve on each channel
 /// 4. the 3D table
 /// 5. [`Decode`]
 ///
-/// NaN counts as 0 and infinities as ±[`INPUT_MAX`] before the first matrix.
+/// NaN counts as 0 and infinities as ±[`SCENE_MAX`](crate::SCENE_MAX) before the first matrix.
+///
+/// ```
+/// use onelight_lut::{Decode, IDENTITY, Interpolation, Lut1d, Lut3d, StructuredLut, StructuredParts};
+/// let form = StructuredLut::new(StructuredParts {
+///     input: IDENTITY,
+///     exposure: IDENTITY,
+///     // The table's axes are stops from -10 to 0.
+///     curves: Lut1d::sample(64, [-10.0, 0.0], |stops| 1.0 + stops / 10.0)?,
+///     mix: None,
+///     table: Lut3d::identity(5)?,
+///     decode: Decode::Coded,
+///     interpolation: Interpolation::Tetrahedral,
+/// })?;
+/// assert!((form.apply([0.5, 0.25, 1.0])[0] - 0.9).abs() < 1e-5);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct StructuredLut {
     parts: StructuredParts,
-    input: Mat3,
-    exposure: Mat3,
-    mix: Option<(Mat3, Vec3)>,
     curves: Curves,
     mix_curves: Option<Curves>,
 }
 
-/// What a [`StructuredLut`] is made of.
+/// What a [`StructuredLut`] is made of, in the order in which it is applied.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StructuredParts {
     /// From the picture's primaries to those of the exposure matrix.
     pub input: Rows,
     /// To the exposure of each channel.
     pub exposure: Rows,
-    /// Curves over log2 exposure.
+    /// A curve over log2 exposure for each channel; its values are the coordinates, or what `mix` makes them of.
     pub curves: Lut1d,
     /// A second mix of the channels, with its curves.
     pub mix: Option<Mix>,
-    /// The table.
+    /// The table, read at coordinates from 0 to 1.
     pub table: Lut3d,
     /// How entries of the table become the output.
     pub decode: Decode,
@@ -65,20 +69,20 @@ pub struct StructuredParts {
 /// A matrix with offset, then a curve on each channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mix {
-    /// The matrix.
+    /// From the first curves' values to those that the second take.
     pub matrix: Rows,
-    /// Added after the matrix.
+    /// Added to what the matrix gives.
     pub offset: [f32; 3],
-    /// The curves.
+    /// A curve for each channel, whose values are the table's coordinates.
     pub curves: Lut1d,
 }
 
 /// How entries of a table become the output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Decode {
-    /// They are the output.
+    /// The entries are the output as they are.
     Coded,
-    /// They are densities: 10^-entry, a matrix to linear RGB, then the output's coding.
+    /// The entries are densities: 10^-entry, a matrix to linear RGB, then the output's coding.
     Density {
         /// From the three transmittances to linear RGB.
         matrix: Rows,
@@ -88,24 +92,23 @@ pub enum Decode {
 }
 
 impl StructuredLut {
-    /// Puts the parts together.
+    /// A table of these parts, checked so that applying it cannot fail.
     ///
     /// # Errors
     /// If a matrix holds a number that is not finite.
     pub fn new(parts: StructuredParts) -> Result<Self, Error> {
-        check("input matrix", &parts.input)?;
-        check("exposure matrix", &parts.exposure)?;
+        check_rows("input matrix", &parts.input)?;
+        check_rows("exposure matrix", &parts.exposure)?;
         if let Some(Mix { matrix, offset, .. }) = &parts.mix {
-            check("mix matrix", matrix)?;
-            check("mix offset", &[*offset; 3])?;
+            check_rows("mix matrix", matrix)?;
+            check_rows("mix offset", &[*offset; 3])?;
         }
         if let Decode::Density { matrix, .. } = &parts.decode {
-            check("decode matrix", matrix)?;
+            check_rows("decode matrix", matrix)?;
         }
-        let mix = parts.mix.as_ref().map(|mix| (matrix(&mix.matrix), Vec3::from(mix.offset)));
         let curves = Curves::new(&parts.curves);
         let mix_curves = parts.mix.as_ref().map(|mix| Curves::new(&mix.curves));
-        Ok(Self { input: matrix(&parts.input), exposure: matrix(&parts.exposure), mix, curves, mix_curves, parts })
+        Ok(Self { curves, mix_curves, parts })
     }
 
     /// What it is made of.
@@ -119,31 +122,16 @@ impl StructuredLut {
         Self { parts: StructuredParts { table, ..self.parts.clone() }, ..self.clone() }
     }
 
-    /// Coordinates in the table of one scene-linear colour.
+    /// The coordinates, 0 to 1 within the table, of one scene-linear colour.
     #[inline]
     pub fn coordinates(&self, linear: [f32; 3]) -> [f32; 3] {
-        let finite = linear.map(|v| if v.is_nan() { 0.0 } else { v.clamp(-INPUT_MAX, INPUT_MAX) });
-        let scene = (self.input * Vec3::from(finite)).clamp(Vec3::ZERO, Vec3::splat(INPUT_MAX));
-        let exposure = self.exposure * scene;
-        let first = self.parts.curves.apply(exposure.to_array().map(|e| log2(e.max(LOG_FLOOR))));
-        match (&self.mix, &self.parts.mix) {
-            (Some((matrix, offset)), Some(Mix { curves, .. })) => {
-                curves.apply((*matrix * Vec3::from(first) + *offset).to_array())
-            }
-            _ => first,
-        }
+        self.coordinates_in(linear)
     }
 
     /// The output for one entry of the table, or a value between entries.
     #[inline]
     pub fn decode(&self, entry: [f32; 3]) -> [f32; 3] {
-        match &self.parts.decode {
-            Decode::Coded => entry,
-            Decode::Density { matrix: rows, coding } => {
-                let passed = Vec3::from(entry.map(|d| exp2(-std::f32::consts::LOG2_10 * d)));
-                (matrix(rows) * passed).to_array().map(|v| coding.encode_f32(v))
-            }
-        }
+        self.decode_in(entry)
     }
 
     /// The output for one scene-linear colour.
@@ -152,9 +140,32 @@ impl StructuredLut {
         self.decode(self.parts.table.apply(self.coordinates(linear), self.parts.interpolation))
     }
 
-    /// [`StructuredLut::apply`] to every pixel in place, on all threads.
-    pub fn apply_to_slice(&self, pixels: &mut [[f32; 3]]) {
-        map_colours(self, pixels);
+    /// [`StructuredLut::apply`] in float64, from the same stored numbers.
+    pub(crate) fn apply_f64(&self, linear: [f64; 3]) -> [f64; 3] {
+        self.decode_in(self.parts.table.apply_f64(self.coordinates_in(linear), self.parts.interpolation))
+    }
+
+    #[inline]
+    fn coordinates_in<N: Number>(&self, linear: [N; 3]) -> [N; 3] {
+        let StructuredParts { input, exposure, curves, mix, .. } = &self.parts;
+        let first = curves.apply_in(log2_exposure(input, exposure, linear));
+        match mix {
+            Some(Mix { matrix, offset, curves }) => {
+                let [r, g, b] = times(matrix, first);
+                curves.apply_in([r + N::of(offset[0]), g + N::of(offset[1]), b + N::of(offset[2])])
+            }
+            None => first,
+        }
+    }
+
+    #[inline]
+    fn decode_in<N: Number>(&self, entry: [N; 3]) -> [N; 3] {
+        match &self.parts.decode {
+            Decode::Coded => entry,
+            Decode::Density { matrix, coding } => {
+                times(matrix, entry.map(N::transmittance)).map(|light| coding.encode_in(light))
+            }
+        }
     }
 
     /// The block's coordinates in the table.
@@ -191,23 +202,11 @@ impl BlockMap for StructuredLut {
     }
 }
 
-pub(super) fn matrix(rows: &Rows) -> Mat3 {
-    Mat3::from_cols_array_2d(rows).transpose()
-}
-
-pub(super) fn check(what: &'static str, rows: &Rows) -> Result<(), Error> {
-    match rows.iter().flatten().find(|v| !v.is_finite()) {
-        Some(&found) => Err(Kind::Parameter { what, found: f64::from(found), expected: "a finite number" }.into()),
-        None => Ok(()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::domain::Domain;
-
-    const IDENTITY: Rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    use crate::scene_light::IDENTITY;
 
     /// log2 from -10 to 0 becomes 0 to 1 through the curve.
     fn parts() -> StructuredParts {

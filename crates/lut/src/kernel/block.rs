@@ -1,5 +1,5 @@
-use fearless_simd::Level;
 use fearless_simd::prelude::*;
+use fearless_simd::{Level, dispatch, f32x4};
 
 /// Pixels in a block: few enough for all scratch to stay in the first cache, many enough to hide what a block costs once.
 pub(crate) const BLOCK: usize = 128;
@@ -21,7 +21,7 @@ pub(crate) struct Block {
 #[repr(align(64))]
 pub(crate) struct Scratch {
     /// Where entries lie: a vertex of a cell, or the start of a piece of a curve.
-    pub(super) place: [Plane<u32>; 4],
+    pub(super) index: [Plane<u32>; 4],
     /// Weights of vertices, or fractions of pieces.
     pub(super) weight: [Plane; 4],
     /// Both ends of a piece of a curve.
@@ -30,7 +30,7 @@ pub(crate) struct Scratch {
 
 impl Block {
     pub(crate) fn new() -> Self {
-        let scratch = Scratch { place: [[0; BLOCK]; 4], weight: [[0.0; BLOCK]; 4], piece: [[0.0; 2]; BLOCK] };
+        let scratch = Scratch { index: [[0; BLOCK]; 4], weight: [[0.0; BLOCK]; 4], piece: [[0.0; 2]; BLOCK] };
         Self { rgb: [[0.0; BLOCK]; 3], alpha: [1.0; BLOCK], scratch }
     }
 }
@@ -43,13 +43,36 @@ pub(crate) trait BlockMap: Sync {
     /// As [`BlockMap::map_block`], with the result and the block's alpha written to `to`.
     fn map_block_to(&self, level: Level, block: &mut Block, to: &mut [[f32; 4]]) {
         self.map_block(level, block, to.len());
-        super::lookup::interleave(level, block, to);
+        interleave(level, block, to);
+    }
+}
+
+/// Writes the block's colours and alpha.
+pub(crate) fn interleave(level: Level, block: &Block, to: &mut [[f32; 4]]) {
+    dispatch!(level, simd => interleave_with(simd, block, to));
+}
+
+#[inline(always)]
+fn interleave_with<S: Simd>(simd: S, block: &Block, to: &mut [[f32; 4]]) {
+    let planes = [&block.rgb[0], &block.rgb[1], &block.rgb[2], &block.alpha];
+    let mut fours = to.chunks_exact_mut(4);
+    let mut i = 0;
+    for four in &mut fours {
+        let mut vectors = [f32x4::splat(simd, 0.0); 4];
+        for (vector, plane) in vectors.iter_mut().zip(planes) {
+            *vector = f32x4::from_slice(simd, &plane[i..i + 4]);
+        }
+        f32x4::store_four_interleaved(vectors, four.as_flattened_mut());
+        i += 4;
+    }
+    for (k, pixel) in fours.into_remainder().iter_mut().enumerate() {
+        *pixel = planes.map(|plane| plane[i + k]);
     }
 }
 
 /// The starts of the vectors that cover the first `count` pixels.
 #[inline(always)]
-pub(super) fn starts<S: Simd>(count: usize) -> impl Iterator<Item = usize> {
+pub(super) fn vector_starts<S: Simd>(count: usize) -> impl Iterator<Item = usize> {
     (0..count.min(BLOCK)).step_by(S::f32s::LEN)
 }
 
@@ -65,10 +88,10 @@ pub(super) fn store<S: Simd>(vector: S::f32s, plane: &mut Plane, i: usize) {
     vector.store_slice(&mut plane[i..i + S::f32s::LEN]);
 }
 
-/// Writes the places that start at pixel `i`.
+/// Writes the numbers of entries for the pixels from `i`.
 #[inline(always)]
-pub(super) fn store_place<S: Simd>(_: S, places: S::i32s, plane: &mut Plane<u32>, i: usize) {
-    places.bitcast::<S::u32s>().store_slice(&mut plane[i..i + S::f32s::LEN]);
+pub(super) fn store_indices<S: Simd>(_: S, indices: S::i32s, plane: &mut Plane<u32>, i: usize) {
+    indices.bitcast::<S::u32s>().store_slice(&mut plane[i..i + S::f32s::LEN]);
 }
 
 /// All three channels from pixel `i`.
@@ -80,7 +103,7 @@ pub(super) fn load_rgb<S: Simd>(simd: S, rgb: &[Plane; 3], i: usize) -> [S::f32s
 /// `f` of each channel. Written out, as the rest here is: a closure within the library's loops would not be compiled for the
 /// level it is used in.
 #[inline(always)]
-pub(super) fn each<T, U>([red, green, blue]: [T; 3], f: impl Fn(T) -> U) -> [U; 3] {
+pub(super) fn map_channels<T, U>([red, green, blue]: [T; 3], f: impl Fn(T) -> U) -> [U; 3] {
     [f(red), f(green), f(blue)]
 }
 

@@ -1,9 +1,9 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch};
 
-use super::block::{Block, each, load_rgb, starts, store, store_place};
-use super::expose::above_zero;
+use super::block::{Block, load_rgb, map_channels, store, store_indices, vector_starts};
 use super::log2_exp2::log2s;
+use super::matrix::above_zero;
 use crate::interpolate::Interpolation;
 use crate::shaper::LogNumbers;
 
@@ -17,13 +17,20 @@ pub(crate) enum Axes<'a> {
 }
 
 /// Finds the cells of the block's colours in a table of `size` nodes a side, and what [`super::lookup`] needs to read them.
-pub(super) fn find(level: Level, axes: Axes<'_>, block: &mut Block, count: usize, size: usize, how: Interpolation) {
+pub(super) fn find_cells(
+    level: Level,
+    axes: Axes<'_>,
+    block: &mut Block,
+    count: usize,
+    size: usize,
+    how: Interpolation,
+) {
     let cells = (size - 1) as f32;
     dispatch!(level, simd => match axes {
-        Axes::Coordinates => cells_of(simd, block, count, size, how, Scaled { cells }),
+        Axes::Coordinates => cells_with(simd, block, count, size, how, Scaled { cells }),
         Axes::Light(&LogNumbers { per_offset, per_stop, .. }) => {
             let shaped = Shaped { per_offset, per_stop: per_stop * cells, cells };
-            cells_of(simd, block, count, size, how, shaped);
+            cells_with(simd, block, count, size, how, shaped);
         }
     });
 }
@@ -48,7 +55,7 @@ impl Position for Scaled {
 #[derive(Clone, Copy)]
 struct Shaped {
     per_offset: f32,
-    /// Cells for each stop.
+    /// Cells of the table for each stop.
     per_stop: f32,
     cells: f32,
 }
@@ -62,7 +69,7 @@ impl Position for Shaped {
 }
 
 #[inline(always)]
-fn cells_of<S: Simd>(simd: S, block: &mut Block, count: usize, size: usize, how: Interpolation, axis: impl Position) {
+fn cells_with<S: Simd>(simd: S, block: &mut Block, count: usize, size: usize, how: Interpolation, axis: impl Position) {
     match how {
         Interpolation::Tetrahedral => tetrahedra(simd, block, count, size, axis),
         Interpolation::Trilinear => cubes(simd, block, count, size, axis),
@@ -72,13 +79,13 @@ fn cells_of<S: Simd>(simd: S, block: &mut Block, count: usize, size: usize, how:
 /// The number of the entry where each lane's cell starts, and how far into the cell the lane lies.
 #[inline(always)]
 fn corner<S: Simd>(simd: S, colour: [S::f32s; 3], size: usize, axis: impl Position) -> (S::i32s, [S::f32s; 3]) {
-    let position = each(
+    let position = map_channels(
         colour,
         #[inline(always)]
         |value| axis.position(simd, value),
     );
     // The last node has a cell of its own here, from which only that node is taken.
-    let node = each(
+    let node = map_channels(
         position,
         #[inline(always)]
         |p: S::f32s| p.trunc(),
@@ -89,17 +96,17 @@ fn corner<S: Simd>(simd: S, colour: [S::f32s; 3], size: usize, axis: impl Positi
     (entry.to_int(), [position[0] - node[0], position[1] - node[1], position[2] - node[2]])
 }
 
-/// Four vertices and their weights.
+/// The four vertices of the tetrahedron that a colour lies in, and their weights.
 #[inline(always)]
 fn tetrahedra<S: Simd>(simd: S, block: &mut Block, count: usize, size: usize, axis: impl Position) {
-    let steps = each(
+    let steps = map_channels(
         [1, size, size * size],
         #[inline(always)]
         |step| S::i32s::splat(simd, step as i32),
     );
     let across = steps[0] + steps[1] + steps[2];
     let scratch = &mut block.scratch;
-    for i in starts::<S>(count) {
+    for i in vector_starts::<S>(count) {
         let (start, [x, y, z]) = corner(simd, load_rgb(simd, &block.rgb, i), size, axis);
         let end = start + across;
         let (low, high) = (x.min(y), x.max(y));
@@ -108,10 +115,10 @@ fn tetrahedra<S: Simd>(simd: S, block: &mut Block, count: usize, size: usize, ax
         // Where fractions are equal the vertex between them has weight 0, so that any order of them does.
         let first = x.simd_eq(most).select(steps[0], y.simd_eq(most).select(steps[1], steps[2]));
         let last = z.simd_eq(least).select(steps[2], y.simd_eq(least).select(steps[1], steps[0]));
-        store_place(simd, start, &mut scratch.place[0], i);
-        store_place(simd, start + first, &mut scratch.place[1], i);
-        store_place(simd, end - last, &mut scratch.place[2], i);
-        store_place(simd, end, &mut scratch.place[3], i);
+        store_indices(simd, start, &mut scratch.index[0], i);
+        store_indices(simd, start + first, &mut scratch.index[1], i);
+        store_indices(simd, end - last, &mut scratch.index[2], i);
+        store_indices(simd, end, &mut scratch.index[3], i);
         store::<S>(S::f32s::splat(simd, 1.0) - most, &mut scratch.weight[0], i);
         store::<S>(most - middle, &mut scratch.weight[1], i);
         store::<S>(middle - least, &mut scratch.weight[2], i);
@@ -119,13 +126,13 @@ fn tetrahedra<S: Simd>(simd: S, block: &mut Block, count: usize, size: usize, ax
     }
 }
 
-/// Three fractions.
+/// The first corner of a cell, and how far into it along each axis.
 #[inline(always)]
 fn cubes<S: Simd>(simd: S, block: &mut Block, count: usize, size: usize, axis: impl Position) {
     let scratch = &mut block.scratch;
-    for i in starts::<S>(count) {
+    for i in vector_starts::<S>(count) {
         let (start, [x, y, z]) = corner(simd, load_rgb(simd, &block.rgb, i), size, axis);
-        store_place(simd, start, &mut scratch.place[0], i);
+        store_indices(simd, start, &mut scratch.index[0], i);
         store::<S>(x, &mut scratch.weight[0], i);
         store::<S>(y, &mut scratch.weight[1], i);
         store::<S>(z, &mut scratch.weight[2], i);

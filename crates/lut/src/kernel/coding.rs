@@ -1,26 +1,26 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch};
 
-use super::block::{Block, each, load_rgb, starts, store_rgb};
+use super::block::{Block, load_rgb, map_channels, store_rgb, vector_starts};
 use super::log2_exp2::{exp2s, log2s};
 use super::matrix::times;
 use crate::coding::PowerNumbers;
-use crate::form::structured::Rows;
+use crate::scene_light::Rows;
 
 /// Densities to coded light: 10^-density, a matrix, a coding.
-pub(crate) fn decode_density(level: Level, rows: &Rows, coding: &PowerNumbers, block: &mut Block, count: usize) {
-    dispatch!(level, simd => decoded(simd, rows, coding, block, count));
+pub(crate) fn decode_density(level: Level, rows: &Rows, coding: &PowerNumbers<f32>, block: &mut Block, count: usize) {
+    dispatch!(level, simd => decode_with(simd, rows, coding, block, count));
 }
 
 #[inline(always)]
-fn decoded<S: Simd>(simd: S, rows: &Rows, coding: &PowerNumbers, block: &mut Block, count: usize) {
-    for i in starts::<S>(count) {
-        let passed = each(
+fn decode_with<S: Simd>(simd: S, rows: &Rows, coding: &PowerNumbers<f32>, block: &mut Block, count: usize) {
+    for i in vector_starts::<S>(count) {
+        let passed = map_channels(
             load_rgb(simd, &block.rgb, i),
             #[inline(always)]
             |density: S::f32s| exp2s(simd, density * -std::f32::consts::LOG2_10),
         );
-        let coded = each(
+        let coded = map_channels(
             times(simd, rows, [0.0; 3], passed),
             #[inline(always)]
             |light| code(simd, coding, light),
@@ -31,7 +31,7 @@ fn decoded<S: Simd>(simd: S, rows: &Rows, coding: &PowerNumbers, block: &mut Blo
 
 /// [`PowerNumbers::encode`] of each lane, for numbers that are not NaN.
 #[inline(always)]
-pub(super) fn code<S: Simd>(simd: S, coding: &PowerNumbers, linear: S::f32s) -> S::f32s {
+pub(super) fn code<S: Simd>(simd: S, coding: &PowerNumbers<f32>, linear: S::f32s) -> S::f32s {
     if coding.is_linear() {
         return linear;
     }

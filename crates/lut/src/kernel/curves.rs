@@ -1,19 +1,18 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch};
 
-use super::block::{BLOCK, Block, Plane, Scratch, load, starts, store, store_place};
-use super::padded::{Padded, with_padded};
+use super::block::{BLOCK, Block, Plane, Scratch, load, store, store_indices, vector_starts};
 use crate::lut1d::Lut1d;
 
 /// The curves of a [`Lut1d`], one after the other: twice as many bytes again as the table has.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Curves([Curve; 3]);
+pub(crate) struct Curves([ChannelCurve; 3]);
 
 /// Both ends of each piece of a channel's curve, where the first lies, and pieces for each unit of input.
 #[derive(Clone, Debug, PartialEq)]
-struct Curve {
-    pieces: Padded<[f32; 2]>,
-    /// The number of pieces.
+struct ChannelCurve {
+    pieces: Vec<[f32; 2]>,
+    /// The number of pieces, which is where the last ends.
     end: f32,
     start: f32,
     scale: f32,
@@ -22,8 +21,8 @@ struct Curve {
 impl Curves {
     pub(crate) fn new(table: &Lut1d) -> Self {
         let [min, max] = [table.domain().min(), table.domain().max()];
-        Self(std::array::from_fn(|c| Curve {
-            pieces: Padded::new(table.entries().windows(2).map(|ends| [ends[0][c], ends[1][c]])),
+        Self(std::array::from_fn(|c| ChannelCurve {
+            pieces: table.entries().windows(2).map(|ends| [ends[0][c], ends[1][c]]).collect(),
             end: (table.size() - 1) as f32,
             start: min[c],
             scale: (table.size() - 1) as f32 / (max[c] - min[c]),
@@ -33,35 +32,28 @@ impl Curves {
     /// Reads each channel's curve at that channel's plane, which holds no NaN.
     pub(crate) fn apply(&self, level: Level, Block { rgb, scratch, .. }: &mut Block, count: usize) {
         for (curve, plane) in self.0.iter().zip(rgb) {
-            with_padded!(curve.pieces, pieces => dispatch!(level, simd => curve.apply(simd, pieces, plane, scratch, count)));
+            dispatch!(level, simd => curve.apply(simd, plane, scratch, count));
         }
     }
 }
 
-impl Curve {
+impl ChannelCurve {
     #[inline(always)]
-    fn apply<S: Simd, const N: usize>(
-        &self,
-        simd: S,
-        pieces: &[[f32; 2]; N],
-        plane: &mut Plane,
-        scratch: &mut Scratch,
-        count: usize,
-    ) {
-        let Scratch { place: [place, ..], weight: [fraction, ..], piece } = scratch;
+    fn apply<S: Simd>(&self, simd: S, plane: &mut Plane, scratch: &mut Scratch, count: usize) {
+        let Scratch { index: [index, ..], weight: [fraction, ..], piece } = scratch;
         let last = S::f32s::splat(simd, self.end - 1.0);
-        for i in starts::<S>(count) {
+        for i in vector_starts::<S>(count) {
             let position = ((load(simd, plane, i) - self.start) * self.scale).max(0.0).min(self.end);
-            let index = position.trunc().min(last);
-            store::<S>(position - index, fraction, i);
-            store_place(simd, index.to_int(), place, i);
+            let start = position.trunc().min(last);
+            store::<S>(position - start, fraction, i);
+            store_indices(simd, start.to_int(), index, i);
         }
         let covered = count.next_multiple_of(S::f32s::LEN).min(BLOCK);
-        for (piece, place) in piece.iter_mut().zip(&place[..covered]) {
-            *piece = pieces[*place as usize % N];
+        for (piece, index) in piece.iter_mut().zip(&index[..covered]) {
+            *piece = self.pieces.get(*index as usize).copied().unwrap_or_default();
         }
         let ends = piece.as_flattened();
-        for i in starts::<S>(count) {
+        for i in vector_starts::<S>(count) {
             let (low, high) = (2 * i, 2 * i + S::f32s::LEN);
             let pairs = S::f32s::from_slice(simd, &ends[low..high]);
             let (near, far) = pairs.deinterleave(S::f32s::from_slice(simd, &ends[high..high + S::f32s::LEN]));

@@ -1,46 +1,8 @@
 use fearless_simd::prelude::*;
 
-/// Bits of 1, and those of a number that hold its mantissa.
-const ONE: i32 = 0x3f80_0000;
-const MANTISSA: i32 = 0x007f_ffff;
+use crate::log2_exp2::{EXP2, EXP2_ENDS, LOG2, MANTISSA, ONE, ROUNDER};
 
-/// `log2(1 + f) / f` on [0, 1], least largest absolute error of the logarithm among those that are 1 at 1, so that the
-/// logarithm has no step where its exponent changes: 3.3e-7, and 3.5e-7 with these roundings.
-const LOG2: [f32; 7] =
-    [1.442_666_4, -0.720_554_23, 0.473_324_18, -0.325_140_18, 0.193_029_66, -0.078_534_97, 0.015_209_109];
-
-/// `(2^f - 1) / f` on [-1/2, 1/2], least largest relative error of the power: 9.2e-8.
-#[allow(clippy::approx_constant, reason = "a coefficient near ln 2, not ln 2")]
-const EXP2: [f32; 5] = [0.693_147, 0.240_222_42, 0.055_507_336, 0.009_671_513, 0.001_326_472_7];
-
-/// Exponents are held within these ends, so that powers are normal numbers.
-const EXP2_ENDS: [f32; 2] = [-126.0, 126.0];
-
-/// 1.5 2^23: what is added to it loses its fraction, rounded to the nearest.
-const ROUNDER: f32 = 12_582_912.0;
-
-/// The logarithm to base 2 of a normal positive number, or infinity (128), within 5e-7 and the rounding of the result.
-#[inline]
-pub(crate) fn log2(x: f32) -> f32 {
-    let bits = x.to_bits().cast_signed();
-    let exponent = (bits - ONE) >> 23;
-    let f = f32::from_bits((bits & MANTISSA | ONE).cast_unsigned()) - 1.0;
-    let quotient = LOG2.iter().rev().skip(1).fold(LOG2[6], |sum, &c| sum * f + c);
-    quotient * f + exponent as f32
-}
-
-/// 2 to the power of `x`, held within [-126, 126]; NaN is taken for -126. Within 2.5e-7 of the result.
-#[inline]
-pub(crate) fn exp2(x: f32) -> f32 {
-    let [low, high] = EXP2_ENDS;
-    let x = if x > low { x.min(high) } else { low };
-    let rounded = x + ROUNDER;
-    let f = x - (rounded - ROUNDER);
-    let quotient = EXP2.iter().rev().skip(1).fold(EXP2[4], |sum, &c| sum * f + c);
-    f32::from_bits((quotient * f + 1.0).to_bits().wrapping_add(rounded.to_bits() << 23))
-}
-
-/// [`log2()`] of each lane.
+/// The same as [`log2`](crate::log2_exp2::log2) for each lane of a vector.
 #[inline(always)]
 pub(super) fn log2s<S: Simd>(simd: S, x: S::f32s) -> S::f32s {
     let bits: S::i32s = x.bitcast();
@@ -54,7 +16,7 @@ pub(super) fn log2s<S: Simd>(simd: S, x: S::f32s) -> S::f32s {
     quotient.mul_add(f, exponent.to_float::<S::f32s>())
 }
 
-/// [`exp2()`] of each lane, for exponents that are not NaN.
+/// [`exp2`](crate::log2_exp2::exp2) of each lane, for exponents that are not NaN.
 #[inline(always)]
 pub(super) fn exp2s<S: Simd>(simd: S, x: S::f32s) -> S::f32s {
     let [low, high] = EXP2_ENDS;
@@ -74,6 +36,7 @@ pub(super) fn exp2s<S: Simd>(simd: S, x: S::f32s) -> S::f32s {
 mod tests {
     use super::*;
     use crate::kernel::levels;
+    use crate::log2_exp2::{exp2, log2};
     use fearless_simd::{Level, dispatch};
 
     /// The error of the polynomial, 3.5e-7, and the roundings of two numbers below 1.44, before the exponent is added with a

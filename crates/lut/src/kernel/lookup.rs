@@ -2,21 +2,19 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f32x4, f32x8, f32x16};
 
 use super::block::{BLOCK, Block, Plane, Scratch};
-use super::cells::{self, Axes};
-use super::padded::with_padded;
+use super::cells::{Axes, find_cells};
 use super::wide::Wide;
 use crate::interpolate::Interpolation;
 use crate::lut3d::Lut3d;
+use crate::padded::with_padded;
 
 /// Reads the table at the block's colours, which become what was read.
 pub(crate) fn lookup(level: Level, axes: Axes<'_>, table: &Lut3d, how: Interpolation, block: &mut Block, count: usize) {
-    cells::find(level, axes, block, count, table.size(), how);
-    with_padded!(table.padded(), entries => dispatch!(level, simd => {
-        let Block { rgb, scratch, .. } = block;
-        match how {
-            Interpolation::Tetrahedral => to_planes(simd, rgb, scratch, count, &Tetrahedra { entries, places: &scratch.place }),
-            Interpolation::Trilinear => to_planes(simd, rgb, scratch, count, &Cubes::new(entries, table, scratch)),
-        }
+    find_cells(level, axes, block, count, table.size(), how);
+    let Block { rgb, scratch, .. } = block;
+    with_padded!(table.padded(), entries => dispatch!(level, simd => match how {
+        Interpolation::Tetrahedral => to_planes(simd, rgb, scratch, count, &Tetrahedra::new(entries, scratch)),
+        Interpolation::Trilinear => to_planes(simd, rgb, scratch, count, &Cubes::new(entries, table, scratch)),
     }));
 }
 
@@ -29,34 +27,11 @@ pub(crate) fn lookup_to(
     block: &mut Block,
     to: &mut [[f32; 4]],
 ) {
-    cells::find(level, axes, block, to.len(), table.size(), how);
+    find_cells(level, axes, block, to.len(), table.size(), how);
     with_padded!(table.padded(), entries => dispatch!(level, simd => match how {
-        Interpolation::Tetrahedral => to_pixels(simd, block, to, &Tetrahedra { entries, places: &block.scratch.place }),
+        Interpolation::Tetrahedral => to_pixels(simd, block, to, &Tetrahedra::new(entries, &block.scratch)),
         Interpolation::Trilinear => to_pixels(simd, block, to, &Cubes::new(entries, table, &block.scratch)),
     }));
-}
-
-/// Writes the block's colours and alpha.
-pub(crate) fn interleave(level: Level, block: &Block, to: &mut [[f32; 4]]) {
-    dispatch!(level, simd => interleaved(simd, block, to));
-}
-
-#[inline(always)]
-fn interleaved<S: Simd>(simd: S, block: &Block, to: &mut [[f32; 4]]) {
-    let planes = [&block.rgb[0], &block.rgb[1], &block.rgb[2], &block.alpha];
-    let mut fours = to.chunks_exact_mut(4);
-    let mut i = 0;
-    for four in &mut fours {
-        let mut vectors = [f32x4::splat(simd, 0.0); 4];
-        for (vector, plane) in vectors.iter_mut().zip(planes) {
-            *vector = f32x4::from_slice(simd, &plane[i..i + 4]);
-        }
-        f32x4::store_four_interleaved(vectors, four.as_flattened_mut());
-        i += 4;
-    }
-    for (k, pixel) in fours.into_remainder().iter_mut().enumerate() {
-        *pixel = planes.map(|plane| plane[i + k]);
-    }
 }
 
 /// The value between the entries of a table, from the cells found.
@@ -65,49 +40,56 @@ trait Read<S: Simd> {
     fn read<V: Wide<S>>(&self, simd: S, weights: [V; 4], pixels: [usize; 4]) -> V;
 }
 
-/// Four vertices.
+/// Four vertices of a cell.
 struct Tetrahedra<'a, const N: usize> {
     entries: &'a [[f32; 4]; N],
-    places: &'a [Plane<u32>; 4],
+    vertices: &'a [Plane<u32>; 4],
+}
+
+impl<'a, const N: usize> Tetrahedra<'a, N> {
+    #[inline(always)]
+    fn new(entries: &'a [[f32; 4]; N], scratch: &'a Scratch) -> Self {
+        Self { entries, vertices: &scratch.index }
+    }
 }
 
 impl<S: Simd, const N: usize> Read<S> for Tetrahedra<'_, N> {
     #[inline(always)]
     fn read<V: Wide<S>>(&self, simd: S, weights: [V; 4], pixels: [usize; 4]) -> V {
-        let Self { entries, places: [first, second, third, fourth] } = self;
-        let sum = join::<S, V, N>(simd, entries, first, pixels, 0) * weights[0];
-        let sum = join::<S, V, N>(simd, entries, second, pixels, 0).mul_add(weights[1], sum);
-        let sum = join::<S, V, N>(simd, entries, third, pixels, 0).mul_add(weights[2], sum);
-        join::<S, V, N>(simd, entries, fourth, pixels, 0).mul_add(weights[3], sum)
+        let Self { entries, vertices: [first, second, third, fourth] } = self;
+        let sum = combine_pixels::<S, V, N>(simd, entries, first, pixels, 0) * weights[0];
+        let sum = combine_pixels::<S, V, N>(simd, entries, second, pixels, 0).mul_add(weights[1], sum);
+        let sum = combine_pixels::<S, V, N>(simd, entries, third, pixels, 0).mul_add(weights[2], sum);
+        combine_pixels::<S, V, N>(simd, entries, fourth, pixels, 0).mul_add(weights[3], sum)
     }
 }
 
-/// Eight corners.
+/// Eight corners of a cell.
 struct Cubes<'a, const N: usize> {
     entries: &'a [[f32; 4]; N],
-    places: &'a Plane<u32>,
+    corners: &'a Plane<u32>,
     /// From a corner of a cell to its neighbours along red, green and blue.
     steps: [u32; 3],
 }
 
 impl<'a, const N: usize> Cubes<'a, N> {
     #[inline(always)]
-    fn new(entries: &'a [[f32; 4]; N], table: &Lut3d, Scratch { place: [places, ..], .. }: &'a Scratch) -> Self {
+    fn new(entries: &'a [[f32; 4]; N], table: &Lut3d, Scratch { index: [corners, ..], .. }: &'a Scratch) -> Self {
         let size = table.size() as u32;
-        Self { entries, places, steps: [1, size, size * size] }
+        Self { entries, corners, steps: [1, size, size * size] }
     }
 }
 
 impl<S: Simd, const N: usize> Read<S> for Cubes<'_, N> {
     #[inline(always)]
     fn read<V: Wide<S>>(&self, simd: S, [x, y, z, _]: [V; 4], pixels: [usize; 4]) -> V {
-        let Self { entries, places, steps: [red, green, blue] } = *self;
+        let Self { entries, corners, steps: [red, green, blue] } = *self;
         let mut sides = [x; 2];
         for (side, step) in sides.iter_mut().zip([0, blue]) {
             let mut edges = [x; 2];
             for (edge, step) in edges.iter_mut().zip([step, step + green]) {
-                let near = join::<S, V, N>(simd, entries, places, pixels, step);
-                *edge = mix(simd, near, join::<S, V, N>(simd, entries, places, pixels, step + red), x);
+                let near = combine_pixels::<S, V, N>(simd, entries, corners, pixels, step);
+                *edge = mix(simd, near, combine_pixels::<S, V, N>(simd, entries, corners, pixels, step + red), x);
             }
             *side = mix(simd, edges[0], edges[1], y);
         }
@@ -115,18 +97,18 @@ impl<S: Simd, const N: usize> Read<S> for Cubes<'_, N> {
     }
 }
 
-/// The entries of several pixels, `step` beyond their places, side by side.
+/// The entries of several pixels, `step` beyond their indices, side by side.
 #[inline(always)]
-fn join<S: Simd, V: Wide<S>, const N: usize>(
+fn combine_pixels<S: Simd, V: Wide<S>, const N: usize>(
     simd: S,
     entries: &[[f32; 4]; N],
-    places: &Plane<u32>,
+    indices: &Plane<u32>,
     [a, b, c, d]: [usize; 4],
     step: u32,
 ) -> V {
-    let entry = |i: usize| entries[places[i].wrapping_add(step) as usize % N];
+    let entry = |i: usize| entries[indices[i].wrapping_add(step) as usize % N];
     let (a, b) = (f32x4::simd_from(simd, entry(a)), f32x4::simd_from(simd, entry(b)));
-    V::join([a, b, f32x4::simd_from(simd, entry(c)), f32x4::simd_from(simd, entry(d))])
+    V::combine_pixels([a, b, f32x4::simd_from(simd, entry(c)), f32x4::simd_from(simd, entry(d))])
 }
 
 /// A weighted mean rather than `a + (b - a) t`: finite for all finite ends.
@@ -135,10 +117,11 @@ fn mix<S: Simd, V: Wide<S>>(simd: S, a: V, b: V, t: V) -> V {
     b.mul_add(t, a * (V::splat(simd, 1.0) - t))
 }
 
-/// The widest vectors that the level has; where it has but narrow ones, two of them.
+/// On the widest vectors that the level has; where it has but narrow ones, on two of them. The choice is a constant, so that only
+/// one of the two is compiled for a level.
 #[inline(always)]
 fn to_planes<S: Simd>(simd: S, rgb: &mut [Plane; 3], scratch: &Scratch, count: usize, table: &impl Read<S>) {
-    if S::f32s::LEN == 16 {
+    if const { S::f32s::LEN == 16 } {
         planes::<S, f32x16<S>>(simd, rgb, scratch, count, table);
     } else {
         planes::<S, f32x8<S>>(simd, rgb, scratch, count, table);
@@ -147,14 +130,14 @@ fn to_planes<S: Simd>(simd: S, rgb: &mut [Plane; 3], scratch: &Scratch, count: u
 
 #[inline(always)]
 fn to_pixels<S: Simd>(simd: S, block: &Block, to: &mut [[f32; 4]], table: &impl Read<S>) {
-    if S::f32s::LEN == 16 {
+    if const { S::f32s::LEN == 16 } {
         pixels::<S, f32x16<S>>(simd, block, to, table);
     } else {
         pixels::<S, f32x8<S>>(simd, block, to, table);
     }
 }
 
-/// Reads groups and turns them to planes.
+/// Reads groups of pixels and transposes them to planes.
 #[inline(always)]
 fn planes<S: Simd, V: Wide<S>>(
     simd: S,
@@ -169,7 +152,7 @@ fn planes<S: Simd, V: Wide<S>>(
         let b = table.read(simd, V::each_of_far::<1>(simd, w), V::far_pixels(i, 1));
         let c = table.read(simd, V::each_of_far::<2>(simd, w), V::far_pixels(i, 2));
         let d = table.read(simd, V::each_of_far::<3>(simd, w), V::far_pixels(i, 3));
-        let [r, g, b] = V::turn([a, b, c, d]);
+        let [r, g, b] = V::transpose([a, b, c, d]);
         r.store_slice(&mut red[i..i + V::LEN]);
         g.store_slice(&mut green[i..i + V::LEN]);
         b.store_slice(&mut blue[i..i + V::LEN]);

@@ -1,44 +1,44 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch};
 
-use super::block::{BLOCK, Block, each, load_rgb, store_rgb};
+use super::block::{BLOCK, Block, load_rgb, map_channels, store_rgb};
 use super::coding::code;
 use super::log2_exp2::{exp2s, log2s};
 use crate::coding::PowerNumbers;
-use crate::form::direct::ExponentialTerm;
-use crate::form::structured::LOG_FLOOR;
+use crate::exponential_sum::ExponentialTerm;
+use crate::scene_light::LOG_FLOOR;
 
 /// Vectors that go through a sum together: what one waits for, the other uses.
-const TOGETHER: usize = 2;
+const VECTORS_AT_ONCE: usize = 2;
 
 /// A sum of exponentials, and the log2 of it.
 pub(crate) fn log2_of_sum(level: Level, terms: &[ExponentialTerm], block: &mut Block, count: usize) {
-    dispatch!(level, simd => summed(simd, terms, block, count, 
+    dispatch!(level, simd => sum_with(simd, terms, block, count, 
         #[inline(always)]
-        |v: _| log2s(simd, floored(simd, v))));
+        |v: _| log2s(simd, at_least_floor(simd, v))));
 }
 
 /// A sum of exponentials, and its coding.
 pub(crate) fn coded_sum(
     level: Level,
     terms: &[ExponentialTerm],
-    coding: &PowerNumbers,
+    coding: &PowerNumbers<f32>,
     block: &mut Block,
     count: usize,
 ) {
-    dispatch!(level, simd => summed(simd, terms, block, count, 
+    dispatch!(level, simd => sum_with(simd, terms, block, count, 
         #[inline(always)]
         |v| code(simd, coding, v)));
 }
 
 /// Not so low that it has no logarithm.
 #[inline(always)]
-fn floored<S: Simd>(_: S, v: S::f32s) -> S::f32s {
+fn at_least_floor<S: Simd>(_: S, v: S::f32s) -> S::f32s {
     v.max(LOG_FLOOR)
 }
 
 #[inline(always)]
-fn summed<S: Simd>(
+fn sum_with<S: Simd>(
     simd: S,
     terms: &[ExponentialTerm],
     block: &mut Block,
@@ -46,14 +46,14 @@ fn summed<S: Simd>(
     then: impl Fn(S::f32s) -> S::f32s + Copy,
 ) {
     let len = S::f32s::LEN;
-    for i in (0..count.min(BLOCK)).step_by(TOGETHER * len) {
+    for i in (0..count.min(BLOCK)).step_by(VECTORS_AT_ONCE * len) {
         let zero = S::f32s::splat(simd, 0.0);
-        let mut x = [[zero; 3]; TOGETHER];
+        let mut x = [[zero; 3]; VECTORS_AT_ONCE];
         for (k, x) in x.iter_mut().enumerate() {
             let [red, green, blue] = load_rgb(simd, &block.rgb, i + k * len);
             *x = [-red, -green, -blue];
         }
-        let mut sums = [[zero; 3]; TOGETHER];
+        let mut sums = [[zero; 3]; VECTORS_AT_ONCE];
         for ExponentialTerm { rate, weight } in terms {
             for (sum, x) in sums.iter_mut().zip(&x) {
                 let exponent = x[2].mul_add(rate[2], x[1].mul_add(rate[1], x[0] * rate[0]));
@@ -64,7 +64,7 @@ fn summed<S: Simd>(
             }
         }
         for (k, sum) in sums.into_iter().enumerate() {
-            store_rgb::<S>(each(sum, then), &mut block.rgb, i + k * len);
+            store_rgb::<S>(map_channels(sum, then), &mut block.rgb, i + k * len);
         }
     }
 }

@@ -7,7 +7,7 @@ use fearless_simd::{f32x4, f32x8, f32x16, f64x2, mask32x8, mask32x16, u8x32};
 /// order of the pixels, `far` ones in the order that makes planes of them with least work.
 pub(super) trait Wide<S: Simd>: SimdFloat<S, Element = f32> {
     /// Those pixels side by side; of a vector of eight numbers, the first two.
-    fn join(pixels: [f32x4<S>; 4]) -> Self;
+    fn combine_pixels(pixels: [f32x4<S>; 4]) -> Self;
 
     /// The group's pixels that near vector `k` holds.
     fn near_pixels(start: usize, k: usize) -> [usize; 4];
@@ -38,7 +38,7 @@ pub(super) trait Wide<S: Simd>: SimdFloat<S, Element = f32> {
     }
 
     /// Planes of the first three numbers of a group's far vectors.
-    fn turn(vectors: [Self; 4]) -> [Self; 3];
+    fn transpose(vectors: [Self; 4]) -> [Self; 3];
 
     /// True for the fourth number of each pixel.
     fn is_fourth(simd: S) -> Self::Mask;
@@ -46,7 +46,7 @@ pub(super) trait Wide<S: Simd>: SimdFloat<S, Element = f32> {
 
 impl<S: Simd> Wide<S> for f32x8<S> {
     #[inline(always)]
-    fn join([a, b, ..]: [f32x4<S>; 4]) -> Self {
+    fn combine_pixels([a, b, ..]: [f32x4<S>; 4]) -> Self {
         a.combine(b)
     }
 
@@ -77,10 +77,10 @@ impl<S: Simd> Wide<S> for f32x8<S> {
     }
 
     #[inline(always)]
-    fn turn([a, b, c, d]: [Self; 4]) -> [Self; 3] {
+    fn transpose([a, b, c, d]: [Self; 4]) -> [Self; 3] {
         let [(a, a_far), (b, b_far), (c, c_far), (d, d_far)] = [a.split(), b.split(), c.split(), d.split()];
-        let [red, green, blue] = turned(a, b, c, d);
-        let [red_far, green_far, blue_far] = turned(a_far, b_far, c_far, d_far);
+        let [red, green, blue] = transposed(a, b, c, d);
+        let [red_far, green_far, blue_far] = transposed(a_far, b_far, c_far, d_far);
         [red.combine(red_far), green.combine(green_far), blue.combine(blue_far)]
     }
 
@@ -92,7 +92,7 @@ impl<S: Simd> Wide<S> for f32x8<S> {
 
 /// Red, green and blue of four pixels.
 #[inline(always)]
-fn turned<S: Simd>(a: f32x4<S>, b: f32x4<S>, c: f32x4<S>, d: f32x4<S>) -> [f32x4<S>; 3] {
+fn transposed<S: Simd>(a: f32x4<S>, b: f32x4<S>, c: f32x4<S>, d: f32x4<S>) -> [f32x4<S>; 3] {
     let (low, high): (f64x2<S>, f64x2<S>) = (a.zip_low(b).bitcast(), c.zip_low(d).bitcast());
     let (low_far, high_far): (f64x2<S>, f64x2<S>) = (a.zip_high(b).bitcast(), c.zip_high(d).bitcast());
     [low.zip_low(high).bitcast(), low.zip_high(high).bitcast(), low_far.zip_low(high_far).bitcast()]
@@ -100,7 +100,7 @@ fn turned<S: Simd>(a: f32x4<S>, b: f32x4<S>, c: f32x4<S>, d: f32x4<S>) -> [f32x4
 
 impl<S: Simd> Wide<S> for f32x16<S> {
     #[inline(always)]
-    fn join([a, b, c, d]: [f32x4<S>; 4]) -> Self {
+    fn combine_pixels([a, b, c, d]: [f32x4<S>; 4]) -> Self {
         a.combine(b).combine(c.combine(d))
     }
 
@@ -121,7 +121,7 @@ impl<S: Simd> Wide<S> for f32x16<S> {
     }
 
     #[inline(always)]
-    fn turn([a, b, c, d]: [Self; 4]) -> [Self; 3] {
+    fn transpose([a, b, c, d]: [Self; 4]) -> [Self; 3] {
         let ((rb, g), (rb_far, g_far)) = (a.deinterleave(b), c.deinterleave(d));
         let (red, blue) = rb.deinterleave(rb_far);
         [red, g.deinterleave(g_far).0, blue]

@@ -8,7 +8,8 @@ pub(super) const MAX: f32 = 65504.0;
 /// From the exponent's bias of a half float to that of a float, in place.
 const BIAS: u32 = (127 - 15) << 23;
 
-/// Added to a float below the least normal half float, its last bit is worth what a half float's is.
+/// The float whose last bit has the value of the last bit of a subnormal half float: a smaller float added to it is rounded as a
+/// half float is.
 const SUBNORMAL: u32 = (127 - 15 + (23 - 10) + 1) << 23;
 
 /// Exact; the bits of a NaN move along.
@@ -39,7 +40,7 @@ pub(super) fn from_f32(value: f32) -> u16 {
     (sign | if magnitude >= 0x7f80_0000 { endless } else { finite }) as u16
 }
 
-/// [`to_f32`] of each lane.
+/// The same as [`to_f32`] for each lane of a vector, to the last bit.
 #[inline(always)]
 pub(super) fn to_f32s<L: Simd>(half: L::u32s) -> L::f32s {
     let sign = (half & 0x8000) << 16;
@@ -52,7 +53,7 @@ pub(super) fn to_f32s<L: Simd>(half: L::u32s) -> L::f32s {
     (sign | bits).bitcast()
 }
 
-/// [`from_f32`] of each lane.
+/// The same as [`from_f32`] for each lane of a vector, to the last bit.
 #[inline(always)]
 pub(super) fn from_f32s<L: Simd>(value: L::f32s) -> L::u32s {
     let bits: L::u32s = value.bitcast();

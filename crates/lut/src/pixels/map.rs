@@ -1,13 +1,11 @@
 use super::run;
 use super::sample::Sample;
-use super::vectors::Vectors;
-use super::view::{Pixels, PixelsMut};
+use super::simd_level::SimdLevel;
+use super::view::{Channels, Layout, Pixels, PixelsMut};
 use crate::error::{Error, Kind};
 use crate::form::direct::DirectForm;
-use crate::form::double;
 use crate::form::plain::PlainLut;
 use crate::form::structured::StructuredLut;
-use crate::kernel::Level;
 
 /// A compiled form as a map of whole pictures, on all threads of the current rayon pool and the machine's vector
 /// instructions.
@@ -17,6 +15,18 @@ use crate::kernel::Level;
 ///
 /// Floats come within 1e-5 of [`PixelMap::apply`] and codes of 8 bits within one of its, for forms whose output changes by
 /// less than 30 across the table: what differs is rounding, about 3e-7 in a table's coordinates.
+///
+/// ```
+/// use onelight_lut::{Channels, Interpolation, Lut3d, PixelMap, Pixels, PixelsMut, PlainLut, Shaper};
+///
+/// let form = PlainLut::new(Shaper::log2(0.02, 4.0)?, Lut3d::identity(17)?, Interpolation::Tetrahedral);
+/// let frame = vec![0.18_f32; 4 * 64 * 32];
+/// let mut shown = vec![0_u8; 3 * 64 * 32];
+/// let from = Pixels::new(&frame, Channels::Rgba, [64, 32])?;
+/// form.map(&from, &mut PixelsMut::new(&mut shown, Channels::Rgb, [64, 32])?)?;
+/// assert_eq!(shown[0], (form.apply([0.18; 3])[0] * 255.0).round() as u8);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 pub trait PixelMap: sealed::Sealed + Sync {
     /// The output for one colour.
     fn apply(&self, linear: [f32; 3]) -> [f32; 3];
@@ -29,16 +39,16 @@ pub trait PixelMap: sealed::Sealed + Sync {
     /// # Errors
     /// If the pictures differ in size.
     fn map<S: Sample, T: Sample>(&self, from: &Pixels<'_, S>, to: &mut PixelsMut<'_, T>) -> Result<(), Error> {
-        self.map_on(Vectors::best(), from, to)
+        self.map_on(SimdLevel::best(), from, to)
     }
 
-    /// [`PixelMap::map`] by certain instructions.
+    /// The same as [`PixelMap::map`], by the instructions of one level.
     ///
     /// # Errors
-    /// As there.
+    /// The same as those of [`PixelMap::map`].
     fn map_on<S: Sample, T: Sample>(
         &self,
-        vectors: Vectors,
+        level: SimdLevel,
         from: &Pixels<'_, S>,
         to: &mut PixelsMut<'_, T>,
     ) -> Result<(), Error> {
@@ -46,18 +56,25 @@ pub trait PixelMap: sealed::Sealed + Sync {
             return Err(Kind::PictureSizes { from: from.size(), to: to.size() }.into());
         }
         let (from, to) = ((from.samples, from.layout), (&mut *to.samples, to.layout));
-        run::map(self.blocks().0, vectors.level(), from, to);
+        run::map(self.blocks().0, level.level(), from, to);
         Ok(())
     }
 
-    /// Every pixel in place.
+    /// Every pixel of a picture in place: what is read is overwritten.
     fn map_in_place<S: Sample>(&self, pixels: &mut PixelsMut<'_, S>) {
-        run::map_in_place(self.blocks().0, Level::new(), pixels.samples, pixels.layout);
+        run::map_in_place(self.blocks().0, SimdLevel::best().level(), pixels.samples, pixels.layout);
+    }
+
+    /// Every colour of a list in place.
+    fn map_colours(&self, colours: &mut [[f32; 3]]) {
+        let (width, samples) = (colours.len(), colours.as_flattened_mut());
+        let layout = Layout { channels: Channels::Rgb, width, height: 1, stride: samples.len() };
+        run::map_in_place(self.blocks().0, SimdLevel::best().level(), samples, layout);
     }
 }
 
 mod sealed {
-    use crate::kernel::BlockMap;
+    use crate::kernel::block::BlockMap;
 
     /// A form as the pixel loops see it.
     pub struct Blocks<'a>(pub(super) &'a dyn BlockMap);
@@ -91,7 +108,7 @@ impl PixelMap for PlainLut {
     }
 
     fn apply_f64(&self, linear: [f64; 3]) -> [f64; 3] {
-        double::plain(self, linear)
+        self.apply_f64(linear)
     }
 }
 
@@ -101,7 +118,7 @@ impl PixelMap for StructuredLut {
     }
 
     fn apply_f64(&self, linear: [f64; 3]) -> [f64; 3] {
-        double::structured(self, linear)
+        self.apply_f64(linear)
     }
 }
 
@@ -111,7 +128,7 @@ impl PixelMap for DirectForm {
     }
 
     fn apply_f64(&self, linear: [f64; 3]) -> [f64; 3] {
-        double::direct(self, linear)
+        self.apply_in(linear)
     }
 }
 

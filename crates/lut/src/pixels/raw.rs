@@ -1,22 +1,22 @@
 use fearless_simd::prelude::*;
 
 /// A number as it lies in a picture, and how pixels of four of them become vectors.
-pub trait Raw: Copy + Default + Send + Sync + 'static {
+pub(super) trait Raw: Copy + Default {
     /// The bits of as many pixels as a vector has lanes, channel by channel.
-    fn split<L: Simd>(simd: L, pixels: &[[Self; 4]]) -> [L::u32s; 4];
+    fn deinterleave<L: Simd>(simd: L, pixels: &[[Self; 4]]) -> [L::u32s; 4];
 
     /// Those pixels from their bits.
-    fn join<L: Simd>(channels: [L::u32s; 4], pixels: &mut [[Self; 4]]);
+    fn interleave<L: Simd>(channels: [L::u32s; 4], pixels: &mut [[Self; 4]]);
 
     fn to_bits(self) -> u32;
 
-    /// From the lower bits.
+    /// From the lower bits of a word; the others are dropped.
     fn from_bits(bits: u32) -> Self;
 }
 
 impl Raw for f32 {
     #[inline(always)]
-    fn split<L: Simd>(simd: L, pixels: &[[Self; 4]]) -> [L::u32s; 4] {
+    fn deinterleave<L: Simd>(simd: L, pixels: &[[Self; 4]]) -> [L::u32s; 4] {
         let (samples, len) = (pixels.as_flattened(), L::f32s::LEN);
         let [a, b] = [&samples[..len], &samples[len..2 * len]];
         let [c, d] = [&samples[2 * len..3 * len], &samples[3 * len..4 * len]];
@@ -29,7 +29,7 @@ impl Raw for f32 {
     }
 
     #[inline(always)]
-    fn join<L: Simd>([red, green, blue, alpha]: [L::u32s; 4], pixels: &mut [[Self; 4]]) {
+    fn interleave<L: Simd>([red, green, blue, alpha]: [L::u32s; 4], pixels: &mut [[Self; 4]]) {
         let (samples, len) = (pixels.as_flattened_mut(), L::f32s::LEN);
         let (rb, rb_far) = red.interleave(blue);
         let (ga, ga_far) = green.interleave(alpha);
@@ -54,7 +54,7 @@ impl Raw for f32 {
 
 impl Raw for u16 {
     #[inline(always)]
-    fn split<L: Simd>(simd: L, pixels: &[[Self; 4]]) -> [L::u32s; 4] {
+    fn deinterleave<L: Simd>(simd: L, pixels: &[[Self; 4]]) -> [L::u32s; 4] {
         let (samples, len) = (pixels.as_flattened(), L::u16s::LEN);
         let near: L::u32s = L::u16s::from_slice(simd, &samples[..len]).bitcast();
         let far: L::u32s = L::u16s::from_slice(simd, &samples[len..2 * len]).bitcast();
@@ -63,7 +63,7 @@ impl Raw for u16 {
     }
 
     #[inline(always)]
-    fn join<L: Simd>([red, green, blue, alpha]: [L::u32s; 4], pixels: &mut [[Self; 4]]) {
+    fn interleave<L: Simd>([red, green, blue, alpha]: [L::u32s; 4], pixels: &mut [[Self; 4]]) {
         let (samples, len) = (pixels.as_flattened_mut(), L::u16s::LEN);
         let (near, far) = (red | (green << 16)).interleave(blue | (alpha << 16));
         near.bitcast::<L::u16s>().store_slice(&mut samples[..len]);
@@ -83,13 +83,13 @@ impl Raw for u16 {
 
 impl Raw for u8 {
     #[inline(always)]
-    fn split<L: Simd>(simd: L, pixels: &[[Self; 4]]) -> [L::u32s; 4] {
+    fn deinterleave<L: Simd>(simd: L, pixels: &[[Self; 4]]) -> [L::u32s; 4] {
         let pixels: L::u32s = L::u8s::from_slice(simd, pixels.as_flattened()).bitcast();
         [pixels & 0xff, (pixels >> 8) & 0xff, (pixels >> 16) & 0xff, pixels >> 24]
     }
 
     #[inline(always)]
-    fn join<L: Simd>([red, green, blue, alpha]: [L::u32s; 4], pixels: &mut [[Self; 4]]) {
+    fn interleave<L: Simd>([red, green, blue, alpha]: [L::u32s; 4], pixels: &mut [[Self; 4]]) {
         let joined = (red | (green << 8)) | ((blue << 16) | (alpha << 24));
         joined.bitcast::<L::u8s>().store_slice(pixels.as_flattened_mut());
     }

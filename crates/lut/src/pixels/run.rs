@@ -1,9 +1,10 @@
-use rayon::prelude::*;
+use fearless_simd::Level;
 
 use super::sample::Sample;
+use super::samples::{Samples, SamplesMut};
 use super::transfer::{read, write};
 use super::view::{Channels, Layout};
-use crate::kernel::{BLOCK, Block, BlockMap, Level};
+use crate::kernel::block::{BLOCK, Block, BlockMap};
 
 /// Pixels per task: long enough to hide the cost of handing one out, short enough to share among threads.
 const TASK: usize = 64 * BLOCK;
@@ -29,19 +30,14 @@ impl Cut {
         Self { channels, stride: stride.max(1), samples: layout.row_samples(), pieces: height }
     }
 
-    /// The pixels of a piece: the last may be shorter.
-    fn pixels<S>(self, piece: &[S]) -> &[S] {
-        &piece[..self.samples.min(piece.len())]
-    }
-
-    fn pixels_mut<S>(self, piece: &mut [S]) -> &mut [S] {
-        let len = self.samples.min(piece.len());
-        &mut piece[..len]
-    }
-
-    /// Pieces for a task.
-    fn together(self) -> usize {
+    /// Pieces that come to a task's worth of pixels.
+    fn pieces_per_task(self) -> usize {
         (TASK * self.channels.count()).div_ceil(self.samples.max(1))
+    }
+
+    /// Samples of a whole block.
+    fn block(self) -> usize {
+        BLOCK * self.channels.count()
     }
 }
 
@@ -52,65 +48,97 @@ pub(super) fn map<S: Sample, T: Sample>(
     (from, here): (&[S], Layout),
     (to, there): (&mut [T], Layout),
 ) {
-    let joined = here.is_dense() && there.is_dense();
-    let (from, to) = (&from[..here.samples()], &mut to[..there.samples()]);
-    let (here, there) = (Cut::new(here, joined), Cut::new(there, joined));
-    let each = |block: &mut Block, (to, from): (&mut [T], &[S])| {
-        let [from_step, to_step] = [here.channels, there.channels].map(|channels| BLOCK * channels.count());
-        let blocks = there.pixels_mut(to).chunks_mut(to_step).zip(here.pixels(from).chunks(from_step));
-        for (to, from) in blocks {
-            read(level, from, here.channels, block);
-            finish(form, level, block, to, there.channels);
-        }
-    };
-    if here.pieces <= here.together() {
-        let block = &mut Block::new();
-        let pieces = to.chunks_mut(there.stride).zip(from.chunks(here.stride)).take(here.pieces);
-        return pieces.for_each(|piece| each(block, piece));
-    }
-    let pieces = to.par_chunks_mut(there.stride).zip(from.par_chunks(here.stride)).take(here.pieces);
-    pieces.with_min_len(here.together()).for_each_init(Block::new, each);
+    map_samples(form, level, (S::samples(from), here), (T::samples_mut(to), there));
 }
 
-/// A picture in place.
+/// A picture in place: each block is read before it is written.
 pub(super) fn map_in_place<S: Sample>(form: &dyn BlockMap, level: Level, samples: &mut [S], layout: Layout) {
-    let cut = Cut::new(layout, layout.is_dense());
-    let samples = &mut samples[..layout.samples()];
-    let each = |block: &mut Block, piece: &mut [S]| {
-        for pixels in cut.pixels_mut(piece).chunks_mut(BLOCK * cut.channels.count()) {
-            read(level, pixels, cut.channels, block);
-            finish(form, level, block, pixels, cut.channels);
+    map_samples_in_place(form, level, S::samples_mut(samples), layout);
+}
+
+fn map_samples(
+    form: &dyn BlockMap,
+    level: Level,
+    (from, here): (Samples<'_>, Layout),
+    (to, there): (SamplesMut<'_>, Layout),
+) {
+    let joined = here.is_dense() && there.is_dense();
+    let run = Run { form, level, from: Some(Cut::new(here, joined)), to: Cut::new(there, joined) };
+    let (from, to) = (from.split_at(here.samples()).0, to.split_at(there.samples()).0);
+    run.map_pieces(Some(from), to, run.to.pieces);
+}
+
+fn map_samples_in_place(form: &dyn BlockMap, level: Level, samples: SamplesMut<'_>, layout: Layout) {
+    let run = Run { form, level, from: None, to: Cut::new(layout, layout.is_dense()) };
+    run.map_pieces(None, samples.split_at(layout.samples()).0, run.to.pieces);
+}
+
+/// A form on its way through a picture.
+struct Run<'a> {
+    form: &'a dyn BlockMap,
+    level: Level,
+    /// How the picture to read is cut; none where pixels are mapped in place.
+    from: Option<Cut>,
+    to: Cut,
+}
+
+impl Run<'_> {
+    /// So many pieces, half by half on the threads of the current pool.
+    fn map_pieces(&self, from: Option<Samples<'_>>, to: SamplesMut<'_>, pieces: usize) {
+        let per_task = self.from.unwrap_or(self.to).pieces_per_task();
+        let half = pieces / 2;
+        if half >= per_task {
+            let (to_near, to_far) = to.split_at(half * self.to.stride);
+            let (from_near, from_far) = self.split_from(from, |cut| half * cut.stride);
+            rayon::join(
+                || self.map_pieces(from_near, to_near, half),
+                || self.map_pieces(from_far, to_far, pieces - half),
+            );
+            return;
         }
-    };
-    if cut.pieces <= cut.together() {
         let block = &mut Block::new();
-        return samples.chunks_mut(cut.stride).take(cut.pieces).for_each(|piece| each(block, piece));
+        let (mut from, mut to) = (from, to);
+        for _ in 0..pieces {
+            let (piece, rest) = to.split_at(self.to.stride);
+            let (from_piece, from_rest) = self.split_from(from, |cut| cut.stride);
+            self.map_piece(block, from_piece, piece);
+            (from, to) = (from_rest, rest);
+        }
     }
-    let pieces = samples.par_chunks_mut(cut.stride).take(cut.pieces);
-    pieces.with_min_len(cut.together()).for_each_init(Block::new, each);
-}
 
-/// Colours in place.
-pub(crate) fn map_colours(form: &dyn BlockMap, pixels: &mut [[f32; 3]]) {
-    let (width, samples) = (pixels.len(), pixels.as_flattened_mut());
-    let layout = Layout { channels: Channels::Rgb, width, height: 1, stride: samples.len() };
-    map_in_place(form, Level::new(), samples, layout);
-}
+    /// The pixels of one piece: the last may be shorter.
+    fn map_piece(&self, block: &mut Block, from: Option<Samples<'_>>, to: SamplesMut<'_>) {
+        let mut from = self.split_from(from, |cut| cut.samples).0;
+        let mut to = to.split_at(self.to.samples).0;
+        while to.len() > 0 {
+            let (pixels, rest) = to.split_at(self.to.block());
+            let (from_pixels, from_rest) = self.split_from(from, Cut::block);
+            match (from_pixels, self.from) {
+                (Some(pixels), Some(cut)) => read(self.level, pixels, cut.channels, block),
+                _ => read(self.level, pixels.as_samples(), self.to.channels, block),
+            }
+            self.finish(block, pixels);
+            (from, to) = (from_rest, rest);
+        }
+    }
 
-/// What a form makes of the block, to its place.
-fn finish<T: Sample>(form: &dyn BlockMap, level: Level, block: &mut Block, to: &mut [T], channels: Channels) {
-    let count = to.len() / channels.count();
-    match channels {
-        Channels::Rgba => match T::as_pixels(to) {
-            Some(pixels) => form.map_block_to(level, block, pixels),
-            None => {
-                form.map_block(level, block, count);
+    fn split_from<'s>(
+        &self,
+        from: Option<Samples<'s>>,
+        count: impl Fn(Cut) -> usize,
+    ) -> (Option<Samples<'s>>, Option<Samples<'s>>) {
+        from.zip(self.from).map(|(from, cut)| from.split_at(count(cut))).unzip()
+    }
+
+    /// What the form makes of the block, to its place.
+    fn finish(&self, block: &mut Block, to: SamplesMut<'_>) {
+        let Self { form, level, to: Cut { channels, .. }, .. } = *self;
+        match (to, channels) {
+            (SamplesMut::F32(to), Channels::Rgba) => form.map_block_to(level, block, to.as_chunks_mut().0),
+            (to, _) => {
+                form.map_block(level, block, to.len() / channels.count());
                 write(level, block, to, channels);
             }
-        },
-        Channels::Rgb => {
-            form.map_block(level, block, count);
-            write(level, block, to, channels);
         }
     }
 }

@@ -3,13 +3,21 @@ use half::f16;
 use half::slice::HalfFloatSliceExt;
 
 use super::half_bits;
+use super::raw::Raw;
+use super::samples::{Samples, SamplesMut};
 
 /// The number type of a channel: `f32`, `f16`, `u16` or `u8`.
 ///
 /// Integers stand for 0 to 1. What does not fit a type is rounded to the nearest number it has, ends included; NaN becomes 0
 /// in an integer.
+///
+/// ```
+/// use onelight_lut::Sample;
+/// assert_eq!([u8::from_f32(0.5), u8::from_f32(2.0), u8::from_f32(f32::NAN)], [128, 255, 0]);
+/// assert!((51_u8.to_f32() - 0.2).abs() < 1e-7);
+/// ```
 pub trait Sample: sealed::Sealed + Copy + Default + Send + Sync + 'static {
-    /// The value.
+    /// The value that it stands for.
     fn to_f32(self) -> f32;
 
     /// The nearest number of this type.
@@ -17,36 +25,55 @@ pub trait Sample: sealed::Sealed + Copy + Default + Send + Sync + 'static {
 }
 
 pub(super) mod sealed {
-    use fearless_simd::prelude::*;
+    use super::super::samples::{Samples, SamplesMut};
 
-    use super::super::raw::Raw;
-
-    /// What pixel loops need of a sample: its bits, and those of many at once.
+    /// Forgets the type of samples, so that pixel loops are compiled once for all.
     pub trait Sealed: Sized {
-        type Raw: Raw;
+        fn samples(slice: &[Self]) -> Samples<'_>;
 
-        fn as_raw(samples: &[Self]) -> &[Self::Raw];
-
-        fn as_raw_mut(samples: &mut [Self]) -> &mut [Self::Raw];
-
-        /// [`Sample::to_f32`](super::Sample::to_f32) of each lane's bits.
-        fn values<L: Simd>(simd: L, bits: L::u32s) -> L::f32s;
-
-        /// The bits of [`Sample::from_f32`](super::Sample::from_f32) of each lane.
-        fn codes<L: Simd>(simd: L, values: L::f32s) -> L::u32s;
-
-        /// The same for alpha: what [`Sealed::values`] made of a sample comes back bit for bit, NaN and infinities included.
-        #[inline(always)]
-        fn alphas<L: Simd>(simd: L, values: L::f32s) -> L::u32s {
-            Self::codes(simd, values)
-        }
-
-        /// The samples as RGBA pixels, where they are the loops' own type.
-        fn as_pixels(_samples: &mut [Self]) -> Option<&mut [[f32; 4]]> {
-            None
-        }
+        fn samples_mut(slice: &mut [Self]) -> SamplesMut<'_>;
     }
 }
+
+/// What pixel loops need of a sample: its bits, and the numbers they stand for, many at once.
+pub(super) trait LaneSample: Copy {
+    type Raw: Raw;
+
+    fn as_raw(samples: &[Self]) -> &[Self::Raw];
+
+    fn as_raw_mut(samples: &mut [Self]) -> &mut [Self::Raw];
+
+    /// [`Sample::to_f32`] of each lane's bits.
+    fn values<L: Simd>(simd: L, bits: L::u32s) -> L::f32s;
+
+    /// The bits of [`Sample::from_f32`] of each lane.
+    fn codes<L: Simd>(simd: L, values: L::f32s) -> L::u32s;
+
+    /// The same for alpha: what [`LaneSample::values`] made of a sample comes back bit for bit, NaN and infinities included.
+    #[inline(always)]
+    fn alphas<L: Simd>(simd: L, values: L::f32s) -> L::u32s {
+        Self::codes(simd, values)
+    }
+}
+
+macro_rules! sealed {
+    ($sample:ty, $variant:ident) => {
+        impl sealed::Sealed for $sample {
+            fn samples(slice: &[Self]) -> Samples<'_> {
+                Samples::$variant(slice)
+            }
+
+            fn samples_mut(slice: &mut [Self]) -> SamplesMut<'_> {
+                SamplesMut::$variant(slice)
+            }
+        }
+    };
+}
+
+sealed!(f32, F32);
+sealed!(f16, F16);
+sealed!(u16, U16);
+sealed!(u8, U8);
 
 impl Sample for f32 {
     #[inline]
@@ -60,7 +87,7 @@ impl Sample for f32 {
     }
 }
 
-impl sealed::Sealed for f32 {
+impl LaneSample for f32 {
     type Raw = Self;
 
     fn as_raw(samples: &[Self]) -> &[Self] {
@@ -80,10 +107,6 @@ impl sealed::Sealed for f32 {
     fn codes<L: Simd>(_: L, values: L::f32s) -> L::u32s {
         values.bitcast()
     }
-
-    fn as_pixels(samples: &mut [Self]) -> Option<&mut [[f32; 4]]> {
-        Some(samples.as_chunks_mut().0)
-    }
 }
 
 impl Sample for f16 {
@@ -99,7 +122,7 @@ impl Sample for f16 {
     }
 }
 
-impl sealed::Sealed for f16 {
+impl LaneSample for f16 {
     type Raw = u16;
 
     fn as_raw(samples: &[Self]) -> &[u16] {
@@ -143,7 +166,7 @@ macro_rules! integer {
             }
         }
 
-        impl sealed::Sealed for $sample {
+        impl LaneSample for $sample {
             type Raw = Self;
 
             fn as_raw(samples: &[Self]) -> &[Self] {

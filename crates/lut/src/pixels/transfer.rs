@@ -4,15 +4,35 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch};
 
 use super::raw::Raw;
-use super::sample::Sample;
+use super::sample::LaneSample;
+use super::samples::{Samples, SamplesMut};
 use super::view::Channels;
-use crate::kernel::{BLOCK, Block, Plane};
+use crate::kernel::block::{BLOCK, Block, Plane};
 
 /// The most lanes that a level has.
 const LANES: usize = 16;
 
 /// Reads up to [`BLOCK`] pixels; where there is no alpha it is 1.
-pub(super) fn read<S: Sample>(level: Level, from: &[S], channels: Channels, block: &mut Block) {
+pub(super) fn read(level: Level, from: Samples<'_>, channels: Channels, block: &mut Block) {
+    match from {
+        Samples::F32(from) => read_from(level, from, channels, block),
+        Samples::F16(from) => read_from(level, from, channels, block),
+        Samples::U16(from) => read_from(level, from, channels, block),
+        Samples::U8(from) => read_from(level, from, channels, block),
+    }
+}
+
+/// Writes up to [`BLOCK`] pixels.
+pub(super) fn write(level: Level, block: &Block, to: SamplesMut<'_>, channels: Channels) {
+    match to {
+        SamplesMut::F32(to) => write_to(level, block, to, channels),
+        SamplesMut::F16(to) => write_to(level, block, to, channels),
+        SamplesMut::U16(to) => write_to(level, block, to, channels),
+        SamplesMut::U8(to) => write_to(level, block, to, channels),
+    }
+}
+
+fn read_from<S: LaneSample>(level: Level, from: &[S], channels: Channels, block: &mut Block) {
     let from = S::as_raw(from);
     dispatch!(level, simd => match channels {
         Channels::Rgb => read_rgb::<_, S>(simd, from.as_chunks().0, block),
@@ -20,8 +40,7 @@ pub(super) fn read<S: Sample>(level: Level, from: &[S], channels: Channels, bloc
     });
 }
 
-/// Writes up to [`BLOCK`] pixels.
-pub(super) fn write<T: Sample>(level: Level, block: &Block, to: &mut [T], channels: Channels) {
+fn write_to<T: LaneSample>(level: Level, block: &Block, to: &mut [T], channels: Channels) {
     let to = T::as_raw_mut(to);
     dispatch!(level, simd => match channels {
         Channels::Rgb => write_rgb::<_, T>(simd, block, to.as_chunks_mut().0),
@@ -30,7 +49,7 @@ pub(super) fn write<T: Sample>(level: Level, block: &Block, to: &mut [T], channe
 }
 
 #[inline(always)]
-fn read_rgba<L: Simd, S: Sample>(simd: L, from: &[[S::Raw; 4]], block: &mut Block) {
+fn read_rgba<L: Simd, S: LaneSample>(simd: L, from: &[[S::Raw; 4]], block: &mut Block) {
     let len = L::u32s::LEN;
     let mut groups = from.chunks_exact(len);
     let mut i = 0;
@@ -47,9 +66,9 @@ fn read_rgba<L: Simd, S: Sample>(simd: L, from: &[[S::Raw; 4]], block: &mut Bloc
 }
 
 #[inline(always)]
-fn read_group<L: Simd, S: Sample>(simd: L, group: &[[S::Raw; 4]], block: &mut Block, i: usize) {
+fn read_group<L: Simd, S: LaneSample>(simd: L, group: &[[S::Raw; 4]], block: &mut Block, i: usize) {
     let (Block { rgb: [red, green, blue], alpha, .. }, end) = (block, i + L::u32s::LEN);
-    let [r, g, b, a] = S::Raw::split(simd, group);
+    let [r, g, b, a] = S::Raw::deinterleave(simd, group);
     S::values(simd, r).store_slice(&mut red[i..end]);
     S::values(simd, g).store_slice(&mut green[i..end]);
     S::values(simd, b).store_slice(&mut blue[i..end]);
@@ -57,7 +76,7 @@ fn read_group<L: Simd, S: Sample>(simd: L, group: &[[S::Raw; 4]], block: &mut Bl
 }
 
 #[inline(always)]
-fn write_rgba<L: Simd, T: Sample>(simd: L, block: &Block, to: &mut [[T::Raw; 4]]) {
+fn write_rgba<L: Simd, T: LaneSample>(simd: L, block: &Block, to: &mut [[T::Raw; 4]]) {
     let len = L::u32s::LEN;
     let mut groups = to.chunks_exact_mut(len);
     let mut i = 0;
@@ -74,23 +93,23 @@ fn write_rgba<L: Simd, T: Sample>(simd: L, block: &Block, to: &mut [[T::Raw; 4]]
 }
 
 #[inline(always)]
-fn write_group<L: Simd, T: Sample>(simd: L, block: &Block, i: usize, group: &mut [[T::Raw; 4]]) {
+fn write_group<L: Simd, T: LaneSample>(simd: L, block: &Block, i: usize, group: &mut [[T::Raw; 4]]) {
     let (Block { rgb: [red, green, blue], alpha, .. }, end) = (block, i + L::u32s::LEN);
     let red = T::codes(simd, L::f32s::from_slice(simd, &red[i..end]));
     let green = T::codes(simd, L::f32s::from_slice(simd, &green[i..end]));
     let blue = T::codes(simd, L::f32s::from_slice(simd, &blue[i..end]));
     let alpha = T::alphas(simd, L::f32s::from_slice(simd, &alpha[i..end]));
-    T::Raw::join::<L>([red, green, blue, alpha], group);
+    T::Raw::interleave::<L>([red, green, blue, alpha], group);
 }
 
 /// Three to a pixel is nothing for vectors: samples one by one, the rest together.
 #[inline(always)]
-fn read_rgb<L: Simd, S: Sample>(simd: L, from: &[[S::Raw; 3]], block: &mut Block) {
+fn read_rgb<L: Simd, S: LaneSample>(simd: L, from: &[[S::Raw; 3]], block: &mut Block) {
     let mut bits = [[0; BLOCK]; 3];
     match from.first_chunk::<BLOCK>() {
         // A whole block has its length known to the compiler.
-        Some(from) => apart(from, &mut bits),
-        None => apart(from, &mut bits),
+        Some(from) => deinterleave_rgb(from, &mut bits),
+        None => deinterleave_rgb(from, &mut bits),
     }
     for (plane, bits) in block.rgb.iter_mut().zip(&bits) {
         for i in (0..from.len()).step_by(L::u32s::LEN) {
@@ -102,7 +121,7 @@ fn read_rgb<L: Simd, S: Sample>(simd: L, from: &[[S::Raw; 3]], block: &mut Block
 }
 
 #[inline(always)]
-fn apart<R: Raw>(from: &[[R; 3]], [red, green, blue]: &mut [Plane<u32>; 3]) {
+fn deinterleave_rgb<R: Raw>(from: &[[R; 3]], [red, green, blue]: &mut [Plane<u32>; 3]) {
     for (pixel, ((red, green), blue)) in from.iter().zip(red.iter_mut().zip(green).zip(blue)) {
         *red = pixel[0].to_bits();
         *green = pixel[1].to_bits();
@@ -111,7 +130,7 @@ fn apart<R: Raw>(from: &[[R; 3]], [red, green, blue]: &mut [Plane<u32>; 3]) {
 }
 
 #[inline(always)]
-fn write_rgb<L: Simd, T: Sample>(simd: L, block: &Block, to: &mut [[T::Raw; 3]]) {
+fn write_rgb<L: Simd, T: LaneSample>(simd: L, block: &Block, to: &mut [[T::Raw; 3]]) {
     let mut bits = [[0; BLOCK]; 3];
     for (plane, bits) in block.rgb.iter().zip(&mut bits) {
         for i in (0..to.len()).step_by(L::u32s::LEN) {
@@ -120,13 +139,13 @@ fn write_rgb<L: Simd, T: Sample>(simd: L, block: &Block, to: &mut [[T::Raw; 3]])
         }
     }
     match to.first_chunk_mut::<BLOCK>() {
-        Some(to) => together(&bits, to),
-        None => together(&bits, to),
+        Some(to) => interleave_rgb(&bits, to),
+        None => interleave_rgb(&bits, to),
     }
 }
 
 #[inline(always)]
-fn together<R: Raw>([red, green, blue]: &[Plane<u32>; 3], to: &mut [[R; 3]]) {
+fn interleave_rgb<R: Raw>([red, green, blue]: &[Plane<u32>; 3], to: &mut [[R; 3]]) {
     for (pixel, ((red, green), blue)) in to.iter_mut().zip(red.iter().zip(green).zip(blue)) {
         *pixel = [R::from_bits(*red), R::from_bits(*green), R::from_bits(*blue)];
     }

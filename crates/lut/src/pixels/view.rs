@@ -4,14 +4,14 @@ use crate::error::{Error, Kind};
 /// The channels of a pixel, in memory order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Channels {
-    /// Red, green, blue.
+    /// Red, green, blue, without alpha.
     Rgb,
     /// Red, green, blue, alpha. Alpha is carried along; RGB is not multiplied or divided by it.
     Rgba,
 }
 
 impl Channels {
-    /// Samples of a pixel.
+    /// The number of samples of a pixel.
     pub fn count(self) -> usize {
         match self {
             Self::Rgb => 3,
@@ -21,6 +21,14 @@ impl Channels {
 }
 
 /// A picture to read: rows of interleaved samples.
+///
+/// ```
+/// use onelight_lut::{Channels, Pixels};
+/// let samples = vec![0.0_f32; 4 * 640 * 480];
+/// assert_eq!(Pixels::new(&samples, Channels::Rgba, [640, 480])?.size(), [640, 480]);
+/// assert!(Pixels::new(&samples, Channels::Rgba, [640, 481]).is_err());
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Pixels<'a, S> {
     pub(super) samples: &'a [S],
@@ -28,6 +36,15 @@ pub struct Pixels<'a, S> {
 }
 
 /// A picture to write, or to change in place.
+///
+/// ```
+/// use onelight_lut::{Channels, PixelsMut};
+/// // The left half of a picture whose rows are 1280 pixels long.
+/// let mut samples = vec![0_u8; 3 * 1280 * 720];
+/// let left = PixelsMut::with_stride(&mut samples, Channels::Rgb, [640, 720], 3 * 1280)?;
+/// assert_eq!(left.size(), [640, 720]);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Debug)]
 pub struct PixelsMut<'a, S> {
     pub(super) samples: &'a mut [S],

@@ -1,4 +1,4 @@
-use crate::kernel::log2_exp2::log2;
+use crate::log2_exp2::log2;
 
 /// `t = log2(1 + u / offset) / log2(1 + max / offset)` on `[0, max]`.
 #[derive(Clone, Copy, Debug, PartialEq)]

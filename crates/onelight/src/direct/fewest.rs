@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::{Matrix3, Vector3};
-use onelight_lut::{Certificate, DirectForm, Law, Maps, Samples, Search, certify};
+use nalgebra::Vector3;
+use onelight_lut::{Certificate, DirectForm, Maps, Samples, SamplingLaw, Search, certify};
 
 use super::fit::{fit, misses};
+use super::settings::{Nodes, check_limit};
 use super::stages::Stages;
 use super::sum::Sum;
 use super::training::{Sample, Training};
-use super::{Nodes, check_limit};
 use crate::error::{Error, Kind};
 use crate::reference::Reference;
 
@@ -73,23 +73,21 @@ pub(super) fn under(film: &Reference, stages: &Stages, limit: f64) -> Result<Dir
 /// A film with what a certificate needs.
 struct Measure<'a> {
     film: &'a Reference,
-    /// Colours of the law are in sRGB primaries.
-    to_input: Matrix3<f64>,
     samples: Samples,
     luminance: Vector3<f64>,
 }
 
 impl<'a> Measure<'a> {
     fn new(film: &'a Reference) -> Result<Self, Error> {
-        let to_input = film.to_srgb().try_inverse().unwrap_or_else(Matrix3::identity);
-        let exact = |rgb| film.develop_linear((to_input * Vector3::from(rgb)).data.0[0]);
-        let samples = Samples::new(&Law::default(), &[], exact, |_| {})?;
-        Ok(Self { film, to_input, samples, luminance: film.output().to_xyz()?.row(1).transpose() })
+        // Colours of the law are in sRGB primaries.
+        let exact = |rgb| film.develop_linear(film.input_of_srgb(rgb));
+        let samples = Samples::new(&SamplingLaw::default(), &[], exact, |_| {})?;
+        Ok(Self { film, samples, luminance: film.spaces().luminance()? })
     }
 
     fn certify(&self, direct: &DirectForm, search: Search) -> Result<Certificate, Error> {
         let difference = self.film.difference()?;
-        let input = |rgb: [f64; 3]| (self.to_input * Vector3::from(rgb)).data.0[0];
+        let input = |rgb: [f64; 3]| self.film.input_of_srgb(rgb);
         let maps = Maps {
             reference: |rgb| self.film.develop_linear(input(rgb)),
             candidate: |rgb: [f64; 3]| {

@@ -114,13 +114,13 @@ impl Normal {
         let most = misses.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         let blocks = samples.par_chunks(BLOCK).zip(misses.par_chunks(BLOCK)).map(|(samples, misses)| {
             let mut rows = DMatrix::zeros(n, 3 * samples.len());
-            let mut left = DVector::zeros(3 * samples.len());
+            let mut residual = DVector::zeros(3 * samples.len());
             for (i, (sample, miss)) in samples.iter().zip(misses).enumerate() {
                 let mine = &mut rows.as_mut_slice()[3 * i * n..][..3 * n];
                 let found = derivatives(sum, sample, (miss / most).powi(power / 2 - 1), mine);
-                left.fixed_rows_mut::<3>(3 * i).copy_from_slice(&found);
+                residual.fixed_rows_mut::<3>(3 * i).copy_from_slice(&found);
             }
-            (&rows * rows.transpose(), rows * left)
+            (&rows * rows.transpose(), rows * residual)
         });
         let blocks: Vec<_> = blocks.collect();
         let zero = Self { square: DMatrix::zeros(n, n), product: DVector::zeros(n) };
@@ -163,5 +163,5 @@ fn derivatives(sum: &Sum, sample: &Sample, weight: f64, rows: &mut [f64]) -> [f6
             }
         }
     }
-    (seen * (sample.target - value)).data.0[0]
+    (seen * (sample.target - value)).into()
 }

@@ -2,61 +2,19 @@
 
 mod fewest;
 mod fit;
+mod settings;
 mod stages;
 mod sum;
 mod training;
 
 use onelight_lut::DirectForm;
 
-use crate::error::{Error, Kind};
+use crate::error::Error;
 use crate::reference::Reference;
+pub use settings::{DirectSettings, Nodes};
+use settings::{check_count, check_limit};
 use stages::Stages;
 use training::{Probes, Training};
-
-/// Where the exponentials of a direct form come from.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Nodes {
-    /// The wavelengths of an even grid, not fitted: ready at once. 1 nm is the film itself in float32; 5 nm costs 0.02 dE at
-    /// most, 10 nm 0.2, 20 nm 1.3.
-    Grid {
-        /// Distance in nm: a whole number that divides the ranges of the film's grids, such as 1, 2, 5, 10 or 20.
-        step_nm: usize,
-    },
-    /// The coarsest of the grids by 10, 5, 2 and 1 nm with which none of a few hundred colours differs from the film by more than
-    /// this (CIEDE2000), or that by 1 nm: what tables are baked with.
-    GridUnderMaxDe(f64),
-    /// So many exponentials, fitted to the film over all that light can reach: a tenth of a second. Rates and weights are free;
-    /// they belong to no wavelength, and weights may be negative.
-    Counts {
-        /// Exponentials from the dye on the screen to linear RGB, 2 to [`Nodes::MAX_COUNT`].
-        projection: usize,
-        /// Exponentials from the dye of a negative to the exposure of its print; reversal film has none.
-        duplication: usize,
-    },
-    /// The fewest fitted exponentials with which no colour differs from the film by more than this (CIEDE2000), from -10 to +10
-    /// stops and after following the worst uphill: seconds.
-    UnderMaxDe(f64),
-}
-
-impl Nodes {
-    /// The most exponentials that are fitted in one stage.
-    pub const MAX_COUNT: usize = 16;
-}
-
-/// How [`Reference::direct`] makes its form.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DirectSettings {
-    /// Where the exponentials come from.
-    pub nodes: Nodes,
-}
-
-impl Default for DirectSettings {
-    /// What stays below 0.07 dE for the films of the README, below 0.13 for all pairs of films (5207 on 2383: 6 + 3 stay below 0.3,
-    /// 8 + 4 below 0.13; Velvia 50: 6 below 0.3, 8 below 0.04).
-    fn default() -> Self {
-        Self { nodes: Nodes::Counts { projection: 10, duplication: 5 } }
-    }
-}
 
 impl Reference {
     /// The direct form: unlimited scene range, no table.
@@ -98,22 +56,4 @@ fn grid_under(film: &Reference, stages: &Stages, limit: f64) -> Result<DirectFor
         }
     }
     film.direct_of(stages)
-}
-
-fn check_count(stage: &str, found: usize) -> Result<(), Error> {
-    let allowed = 2..=Nodes::MAX_COUNT;
-    if allowed.contains(&found) {
-        return Ok(());
-    }
-    let expected = format!("a number from {} to {}", allowed.start(), allowed.end());
-    Err(Kind::Setting { what: format!("exponentials of a direct form's {stage}"), found: found as f64, expected }
-        .into())
-}
-
-fn check_limit(found: f64) -> Result<(), Error> {
-    if found > 0.0 {
-        return Ok(());
-    }
-    let what = "largest difference of a direct form".to_owned();
-    Err(Kind::Setting { what, found, expected: "a number above 0".to_owned() }.into())
 }

@@ -60,7 +60,7 @@ impl Reference {
             curves: over_log2(self.camera_curves(), |layer, h| camera[layer].amount(LogExposure(h)).0)?,
             print,
             projection: stages.projection.rounded()?,
-            coding: coding(self.coding()),
+            coding: coding(self.coding())?,
         };
         Ok(DirectForm::new(parts)?)
     }

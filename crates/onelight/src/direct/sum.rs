@@ -76,7 +76,7 @@ impl Sum {
     }
 
     pub(super) fn rounded(&self) -> Result<ExponentialSum, Error> {
-        let single = |v: Vector3<f64>| v.data.0[0].map(|v| v as f32);
+        let single = |v: Vector3<f64>| <[f64; 3]>::from(v).map(|v| v as f32);
         let term = |term: &Term| ExponentialTerm { rate: single(term.rate), weight: single(term.weight) };
         Ok(ExponentialSum::new(self.0.iter().map(term).collect())?)
     }

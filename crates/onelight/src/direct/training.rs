@@ -30,7 +30,7 @@ pub(super) struct Training {
 
 /// Exposures of the colours, in stops about mid grey: until every layer of every film is clear or full.
 const STOPS: (f64, f64) = (-10.0, 14.0);
-/// Colours.
+/// Colours that each stage is fitted to.
 const COUNT: usize = 1024;
 const SEED: u64 = 0x666d_6469_7231_3031;
 /// Difference that a miss of a whole print exposure counts for where the print hardly responds: keeps sums from falling to 0.
@@ -90,9 +90,8 @@ const PROBES: usize = 256;
 impl<'a> Probes<'a> {
     pub(super) fn new(film: &'a Reference) -> Result<Self, Error> {
         let drawn: Vec<[f64; 3]> = SceneSampler::with_seed(STOPS.0..=STOPS.1, !SEED)?.take(PROBES).collect();
-        let from_srgb = film.to_srgb().try_inverse().unwrap_or_else(Matrix3::identity);
         let colours = drawn.into_par_iter().enumerate().map(|(i, rgb)| {
-            let input = (from_srgb * Vector3::from(towards_the_edge(i, rgb))).data.0[0].map(|v| v as f32);
+            let input = film.input_of_srgb(towards_the_edge(i, rgb)).map(|v| v as f32);
             (input, film.develop_linear(input.map(f64::from)))
         });
         Ok(Self { film, difference: film.difference()?, colours: colours.collect() })
@@ -113,7 +112,7 @@ fn vector(amounts: PerLayer<DyeAmount>) -> Vector3<f64> {
 /// Dye of a print, and what each layer adds for a relative rise of its exposure.
 fn respond(curves: &PerLayer<&AmountCurve>, exposure: Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
     const STEP: f64 = 1e-3;
-    let h = PerLayer::from(exposure.data.0[0]).map(LogExposure::of);
+    let h = PerLayer::from(<[f64; 3]>::from(exposure)).map(LogExposure::of);
     let at = |offset: f64| vector(curves.zip_map(h, |curve, h| curve.amount(LogExposure(h.0 + offset))));
     let slope = (at(STEP) - at(-STEP)) / (2.0 * STEP * std::f64::consts::LN_10);
     (at(0.0), Matrix3::from_diagonal(&slope))
@@ -129,13 +128,14 @@ fn at_least(m: Matrix3<f64>) -> Matrix3<f64> {
 fn seen(difference: &DisplayDifference, rgb: Vector3<f64>) -> Matrix3<f64> {
     const STEP: f64 = 1e-5;
     let inside = rgb.map(|v| v.clamp(STEP, 1.0 - STEP));
-    let lab = |rgb: Vector3<f64>| Vector3::from(difference.lab(rgb.data.0[0]));
+    let lab = |rgb: Vector3<f64>| Vector3::from(difference.lab(rgb.into()));
     let slope = |k: usize| {
         let mut step = Vector3::zeros();
         step[k] = STEP;
         (lab(inside + step) - lab(inside - step)) / (2.0 * STEP) / (1.0 + (rgb[k] - inside[k]).abs() / OUTSIDE)
     };
     let slopes = Matrix3::from_columns(&[slope(0), slope(1), slope(2)]);
+    // Where rounding leaves no positive form, CIELAB's own distance serves: weights of a fit need not be exact.
     let root = local(lab(inside)).cholesky().map_or_else(Matrix3::identity, |root| root.l().transpose());
     root * slopes
 }
@@ -143,7 +143,7 @@ fn seen(difference: &DisplayDifference, rgb: Vector3<f64>) -> Matrix3<f64> {
 /// CIEDE2000 near one colour as a quadratic form.
 fn local(lab: Vector3<f64>) -> Matrix3<f64> {
     const STEP: f64 = 1e-3;
-    let square = |step: Vector3<f64>| (ciede2000(lab.data.0[0], (lab + step * STEP).data.0[0]) / STEP).powi(2);
+    let square = |step: Vector3<f64>| (ciede2000(lab.into(), (lab + step * STEP).into()) / STEP).powi(2);
     let unit = |k: usize| Vector3::ith_axis(k).into_inner();
     let form = |i: usize, k: usize| 0.25 * (square(unit(i) + unit(k)) - square(unit(i) - unit(k)));
     Matrix3::from_fn(form)

@@ -15,7 +15,7 @@ const SEED: u64 = 0x666d_6178_6573_3031;
 
 /// The axes of a process: from exposure to the coordinates of the table, and from coordinates back to dye in the camera film.
 pub(super) struct Axes {
-    /// Over log2 exposure.
+    /// From log2 exposure of each layer to the first coordinates.
     pub(super) curves: Lut1d,
     last: Last,
 }
@@ -41,7 +41,7 @@ impl Axes {
         match film.print_curves() {
             None => {
                 let amounts = camera.map(|curve| {
-                    let (least, most) = curve.amounts();
+                    let (least, most) = curve.amount_range().into_inner();
                     (least.0, most.0)
                 });
                 let value = |layer: usize, h: f64| {
@@ -58,22 +58,22 @@ impl Axes {
     }
 
     /// The second stage of the table's form.
-    pub(super) fn mix(&self) -> Option<Mix> {
-        let Last::Print { matrix, offset, axes, .. } = &self.last else { return None };
+    pub(super) fn mix(&self) -> Result<Option<Mix>, Error> {
+        let Last::Print { matrix, offset, axes, .. } = &self.last else { return Ok(None) };
         let axes = axes.as_ref().as_ref().to_array();
         let ends = |pick: fn(&PrintAxis) -> f64| axes.map(|axis| pick(axis) as f32);
-        let domain = Domain::new(ends(|axis| axis.from), ends(|axis| axis.to)).ok()?;
+        let domain = Domain::new(ends(|axis| axis.from), ends(|axis| axis.to))?;
         let point = |i: usize| {
             let t = i as f64 / (CURVE_POINTS - 1) as f64;
             axes.map(|axis| axis.coordinate(axis.from + t * (axis.to - axis.from)) as f32)
         };
-        let curves = Lut1d::new(domain, (0..CURVE_POINTS).map(point).collect()).ok()?;
+        let curves = Lut1d::new(domain, (0..CURVE_POINTS).map(point).collect())?;
         let matrix = std::array::from_fn(|i| std::array::from_fn(|k| matrix[(i, k)] as f32));
-        Some(Mix { matrix, offset: std::array::from_fn(|i| offset[i] as f32), curves })
+        Ok(Some(Mix { matrix, offset: std::array::from_fn(|i| offset[i] as f32), curves }))
     }
 
     /// What lies at a coordinate of each axis: dye in the camera film, or log exposure of the print.
-    pub(super) fn places(&self, coordinates: [f64; 3]) -> [f64; 3] {
+    pub(super) fn positions(&self, coordinates: [f64; 3]) -> [f64; 3] {
         match &self.last {
             Last::Camera { amounts } => {
                 amounts.zip_map(coordinates.into(), |(least, most), t| least + t * (most - least)).to_array()
@@ -82,11 +82,11 @@ impl Axes {
         }
     }
 
-    /// Dye in the camera film at a node, given by its places. Nodes that no light reaches may hold less than no dye.
-    pub(super) fn amounts(&self, places: [f64; 3]) -> PerLayer<DyeAmount> {
+    /// Dye in the camera film at a node, given by its positions. Nodes that no light reaches may hold less than no dye.
+    pub(super) fn amounts(&self, positions: [f64; 3]) -> PerLayer<DyeAmount> {
         let amounts = match &self.last {
-            Last::Camera { .. } => places,
-            Last::Print { offset, inverse, .. } => (inverse * (Vector3::from(places) - offset)).data.0[0],
+            Last::Camera { .. } => positions,
+            Last::Print { offset, inverse, .. } => (inverse * (Vector3::from(positions) - offset)).into(),
         };
         PerLayer::from(amounts).map(DyeAmount)
     }
@@ -140,7 +140,7 @@ impl PrintAxis {
 
 /// Values over log2 of the exposure, each layer over its own curve's range.
 pub(crate) fn over_log2(camera: PerLayer<&AmountCurve>, value: impl Fn(usize, f64) -> f64) -> Result<Lut1d, Error> {
-    let ranges = camera.map(|curve| (curve.range().0.0, curve.range().1.0)).to_array();
+    let ranges = camera.map(|curve| (curve.range().start().0, curve.range().end().0)).to_array();
     let log2 = |log10: f64| (log10 * std::f64::consts::LOG2_10) as f32;
     let domain = Domain::new(ranges.map(|r| log2(r.0)), ranges.map(|r| log2(r.1)))?;
     let point = |i: usize| {

@@ -13,6 +13,7 @@ use rayon::prelude::*;
 
 use crate::error::Error;
 use crate::reference::Reference;
+use crate::word::words;
 use axes::Axes;
 pub(crate) use axes::over_log2;
 
@@ -37,16 +38,25 @@ pub enum TableCoding {
     Display,
 }
 
+words! {
+    Entries, "entries":
+        Entries::Sampled = "sampled" "the film's result at each node",
+        Entries::Fitted = "fitted" "moved so that what is read between nodes comes nearest to the film";
+    TableCoding, "coding":
+        TableCoding::Density = "density" "densities: the most accurate in 16 bits and more",
+        TableCoding::Display = "display" "display-coded colours: better in 10 bits and fewer";
+}
+
 /// How [`Reference::structured`] makes a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StructuredSettings {
-    /// Nodes along each side.
+    /// Nodes along each side of the table, 2 to [`Lut3d::MAX_SIZE`].
     pub size: usize,
     /// How the table will be read.
     pub interpolation: Interpolation,
     /// Where its entries come from.
     pub entries: Entries,
-    /// What they are.
+    /// What the entries of the table are.
     pub coding: TableCoding,
 }
 
@@ -99,14 +109,14 @@ impl Reference {
         let decode = match settings.coding {
             TableCoding::Display => Decode::Coded,
             TableCoding::Density => {
-                Decode::Density { matrix: rows(&self.rgb_from_entries()), coding: coding(self.coding()) }
+                Decode::Density { matrix: rows(&self.rgb_from_entries()), coding: coding(self.coding())? }
             }
         };
         let parts = StructuredParts {
             input: rows(&Matrix3::identity()),
             exposure: rows(self.exposure_matrix().matrix()),
             curves: axes.curves.clone(),
-            mix: axes.mix(),
+            mix: axes.mix()?,
             table,
             decode,
             interpolation: settings.interpolation,
@@ -136,10 +146,10 @@ impl Encode<'_> {
     fn sampled(&self, axes: &Axes, size: usize) -> Result<Lut3d, Error> {
         // Checks the size before anything is allocated.
         let nodes = Lut3d::identity(size)?;
-        let places: Vec<[f64; 3]> =
-            (0..size).map(|i| [i as f64 / (size - 1) as f64; 3]).map(|t| axes.places(t)).collect();
+        let positions: Vec<[f64; 3]> =
+            (0..size).map(|i| [i as f64 / (size - 1) as f64; 3]).map(|t| axes.positions(t)).collect();
         let entry = |i: usize| {
-            let node = [places[i % size][0], places[i / size % size][1], places[i / size / size][2]];
+            let node = [positions[i % size][0], positions[i / size % size][1], positions[i / size / size][2]];
             self.entry(axes.amounts(node))
         };
         Ok(Lut3d::new(size, (0..nodes.entries().len()).into_par_iter().map(entry).collect())?)
@@ -162,7 +172,7 @@ impl Encode<'_> {
         let to_rgb = self.film.rgb_from_entries();
         let linear = |entry: [f32; 3]| match self.coding {
             TableCoding::Display => entry.map(|v| self.film.coding().decode(f64::from(v))),
-            TableCoding::Density => (to_rgb * Vector3::from(entry.map(|d| 10f64.powf(-f64::from(d))))).data.0[0],
+            TableCoding::Density => (to_rgb * Vector3::from(entry.map(|d| 10f64.powf(-f64::from(d))))).into(),
         };
         let miss = |i: usize, value: [f32; 3]| difference.between(linear(samples[i].target), linear(value));
         Ok(fit(table, how, &samples, miss, FitSettings::default())?)
@@ -202,14 +212,13 @@ pub(crate) fn rows(matrix: &Matrix3<f64>) -> Rows {
     std::array::from_fn(|i| std::array::from_fn(|k| matrix[(i, k)] as f32))
 }
 
-pub(crate) fn coding(curve: TransferCurve) -> PowerCoding {
-    let (exponent, offset) = match curve {
-        TransferCurve::Linear => return PowerCoding::LINEAR,
-        TransferCurve::Srgb => (2.4, 0.055),
-        TransferCurve::Gamma24 => (2.4, 0.0),
-    };
-    // Both pairs are in range.
-    PowerCoding::new(exponent, offset).unwrap_or(PowerCoding::LINEAR)
+/// The transfer curve as the forms have it.
+pub(crate) fn coding(curve: TransferCurve) -> Result<PowerCoding, Error> {
+    match curve {
+        TransferCurve::Linear => Ok(PowerCoding::LINEAR),
+        TransferCurve::Srgb => Ok(PowerCoding::new(2.4, 0.055)?),
+        TransferCurve::Gamma24 => Ok(PowerCoding::new(2.4, 0.0)?),
+    }
 }
 
 #[cfg(test)]
@@ -222,7 +231,7 @@ mod tests {
             for i in -100..=1100 {
                 let v = f64::from(i) / 1000.0;
                 // sRGB rounds the slope of its foot.
-                assert!((coding(curve).encode(v) - curve.encode(v)).abs() < 2e-5, "{curve:?} {v}");
+                assert!((coding(curve).unwrap().encode(v) - curve.encode(v)).abs() < 2e-5, "{curve:?} {v}");
             }
         }
     }

@@ -1,4 +1,5 @@
-use crate::error::{Error, Kind};
+use super::sensors::round_trip;
+use crate::error::{Error, ErrorKind};
 use crate::shape::SpectralShape;
 
 /// Where green begins and red begins, in nm.
@@ -15,7 +16,7 @@ pub(super) fn raw() -> [Vec<f64>; 3] {
 /// The boxes mixed by the inverse of their round trip.
 pub(super) fn balanced(sensors: &[Vec<f64>; 3]) -> Result<[Vec<f64>; 3], Error> {
     let raw = raw();
-    let mix = super::round_trip(sensors, &raw).try_inverse();
-    let mix = mix.ok_or_else(|| Kind::Basis { problem: "the boxes are not independent".to_owned() })?;
+    let mix = round_trip(sensors, &raw).try_inverse();
+    let mix = mix.ok_or_else(|| ErrorKind::Basis { problem: "the boxes are not independent".to_owned() })?;
     Ok(std::array::from_fn(|k| (0..raw[0].len()).map(|i| (0..3).map(|j| raw[j][i] * mix[(j, k)]).sum()).collect()))
 }

@@ -4,7 +4,8 @@ use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 use nalgebra::Matrix3;
 
-use crate::error::{Error, Kind};
+use super::sensors::round_trip;
+use crate::error::{Error, ErrorKind};
 
 /// Largest error of the round trip that the solved basis may have before it is made exact.
 const SOLVER_TOLERANCE: f64 = 1e-6;
@@ -18,7 +19,7 @@ pub(super) fn least_non_negative(sensors: &[Vec<f64>; 3]) -> Result<[Vec<f64>; 3
     bounds.extend(std::iter::repeat_n(0.0, 2 * n));
     bounds.extend(std::iter::repeat_n(1.0, n));
     let cones = [SupportedConeT::ZeroConeT(6), SupportedConeT::NonnegativeConeT(3 * n)];
-    let failed = |problem: String| Error::from(Kind::Basis { problem });
+    let failed = |problem: String| Error::from(ErrorKind::Basis { problem });
     let settings = DefaultSettingsBuilder::default()
         .verbose(false)
         .tol_gap_abs(1e-12)
@@ -44,10 +45,10 @@ fn polish(sensors: &[Vec<f64>; 3], solved: &[f64]) -> Result<[Vec<f64>; 3], Erro
     let green: Vec<f64> = solved[n..2 * n].iter().zip(&red).map(|(&g, r)| clip(g).min(1.0 - r)).collect();
     let blue: Vec<f64> = red.iter().zip(&green).map(|(r, g)| 1.0 - r - g).collect();
     let basis = [red, green, blue];
-    let miss = (super::round_trip(sensors, &basis) - Matrix3::identity()).amax();
+    let miss = (round_trip(sensors, &basis) - Matrix3::identity()).amax();
     if miss > SOLVER_TOLERANCE {
         let problem = format!("the round trip misses by {miss:e}, expected at most {SOLVER_TOLERANCE:e}");
-        return Err(Kind::Basis { problem }.into());
+        return Err(ErrorKind::Basis { problem }.into());
     }
     Ok(basis)
 }
@@ -92,19 +93,4 @@ fn from_entries(rows: usize, columns: usize, entries: impl Iterator<Item = (usiz
         v.push(value);
     }
     CscMatrix::new_from_triplets(rows, columns, i, j, v)
-}
-
-#[test]
-fn the_table_of_the_smooth_basis_is_the_solution() {
-    let basis = super::Basis::new(super::Reconstruction::Smooth).unwrap();
-    let solved = least_non_negative(&basis.sensors.rows).unwrap();
-    // What the solver and the polish leave on machines that round otherwise.
-    let miss = |k: usize| basis.reflectance[k].iter().zip(&solved[k]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    let largest = (0..3).map(miss).fold(0.0, f64::max);
-    if largest > 1e-8 {
-        // The new table, ready to be kept.
-        println!("wavelength_nm,red,green");
-        solved[0].iter().zip(&solved[1]).enumerate().for_each(|(i, (r, g))| println!("{},{r},{g}", 380 + i));
-    }
-    assert!(largest < 1e-8, "{largest}");
 }

@@ -2,14 +2,14 @@
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
-use crate::error::{Error, Kind};
-use crate::table::NumberTable;
+use crate::built_in::BuiltInTable;
+use crate::error::{Error, ErrorKind};
 
 /// The smoothest reflectances that are nowhere negative: the quadratic programme of \[MallettYuksel2019\], solved once.
 /// A test solves it again.
 pub(super) fn least_non_negative() -> Result<[Vec<f64>; 3], Error> {
-    let table = NumberTable::parse("smooth_basis.csv", include_str!("../../data/smooth_basis.csv"))?;
-    let column = |name| table.nodes("wavelength_nm", name).map(|nodes| nodes.y);
+    let table = BuiltInTable::parse("smooth_basis.csv", include_str!("../../data/smooth_basis.csv"))?;
+    let column = |name| table.points(name).map(|points| points.y);
     let (red, green) = (column("red")?, column("green")?);
     let blue = red.iter().zip(&green).map(|(r, g)| 1.0 - r - g).collect();
     Ok([red, green, blue])
@@ -33,6 +33,6 @@ pub(super) fn least(sensors: &[Vec<f64>; 3]) -> Result<[Vec<f64>; 3], Error> {
     let mut right = DMatrix::<f64>::zeros(n + 3, 3);
     right.fixed_view_mut::<3, 3>(n, 0).copy_from(&Matrix3::from_diagonal(&Vector3::repeat(1.0)));
     let solved = system.lu().solve(&right);
-    let solved = solved.ok_or_else(|| Kind::Basis { problem: "the sensors are not independent".to_owned() })?;
+    let solved = solved.ok_or_else(|| ErrorKind::Basis { problem: "the sensors are not independent".to_owned() })?;
     Ok(std::array::from_fn(|k| solved.column(k).iter().take(n).copied().collect()))
 }

@@ -15,7 +15,7 @@
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CameraLog {
-    /// Base of the logarithm.
+    /// Base of the logarithm: 2 or 10.
     pub base: f64,
     /// Coded value per unit of the logarithm.
     pub log_side_slope: f64,

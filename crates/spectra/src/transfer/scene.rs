@@ -1,5 +1,6 @@
+use super::camera_log::CameraLog;
+use super::display::TransferCurve;
 use crate::rgb::RgbSpace;
-use crate::transfer::{CameraLog, TransferCurve};
 
 /// How a scene-linear value becomes the coded value that cameras, grading programs and HDR files carry.
 ///
@@ -32,7 +33,7 @@ pub enum SceneCurve {
 }
 
 impl SceneCurve {
-    /// All of them.
+    /// The six curves: those of cameras and grading programs first.
     pub const ALL: [Self; 6] =
         [Self::AcesCct, Self::LogC4, Self::SLog3, Self::DaVinciIntermediate, Self::Pq, Self::Srgb];
 

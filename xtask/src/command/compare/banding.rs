@@ -2,11 +2,11 @@
 
 use anyhow::Result;
 use onelight::Look;
+use onelight_benches::buffers::{CASES, Case, largest_step};
 
+use super::contact_sheet::{Tile, coded};
 use super::develop::{Distance, differences};
 use super::frame::WIDTH;
-use super::paper::{Tile, coded};
-use crate::buffers::{CASES, Case, largest_step};
 
 /// Rows of a ramp, and its ends in stops about mid grey.
 const HEIGHT: usize = 60;
@@ -52,7 +52,7 @@ fn developed(look: &Look, (from, to): (f64, f64), case: Option<&Case>) -> Vec<[f
     let row = |tint: [f64; 3]| -> Vec<[f32; 3]> {
         let at = |x: usize| {
             let stops = from + (to - from) * x as f64 / (WIDTH - 1) as f64;
-            let rgb = tint.map(|v| 0.18 * v * stops.exp2());
+            let rgb = tint.map(|v| onelight::spectra::MID_GREY * v * stops.exp2());
             look.develop_linear(case.map_or(rgb, |case| case.stored(rgb))).map(|v| v as f32)
         };
         (0..WIDTH).map(at).collect()

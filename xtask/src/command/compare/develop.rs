@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use anyhow::Result;
 use onelight::spectra::{DisplayDifference, RgbSpace};
-use onelight::{Look, Process};
+use onelight::{Look, ProcessKeys};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -29,18 +29,23 @@ impl Darkroom {
     }
 
     /// A look, compiled once.
-    pub(super) fn look(&mut self, process: &Process) -> Result<Arc<Look>, String> {
-        let key = process.to_toml();
-        self.looks.entry(key).or_insert_with(|| process.look().map(Arc::new).map_err(|error| error.to_string())).clone()
+    pub(super) fn look(&mut self, keys: &ProcessKeys) -> Result<Arc<Look>, String> {
+        let key = keys.to_toml();
+        self.looks
+            .entry(key)
+            .or_insert_with(|| {
+                keys.process().and_then(|process| process.look()).map(Arc::new).map_err(|error| error.to_string())
+            })
+            .clone()
     }
 
     /// A shot of a frame, developed once.
     pub(super) fn develop(&mut self, frame: &Frame, shot: &Shot) -> Developed {
-        let key = (shot.process.to_toml(), shot.ev);
+        let key = (shot.keys.to_toml(), shot.ev);
         if let Some(developed) = self.pictures.get(&key) {
             return developed.clone();
         }
-        let developed = self.look(&shot.process).map(|look| Arc::new(picture(&look, frame, shot.ev)));
+        let developed = self.look(&shot.keys).map(|look| Arc::new(picture(&look, frame, shot.ev)));
         self.pictures.insert(key, developed.clone());
         developed
     }
@@ -71,7 +76,7 @@ impl Distance {
     }
 }
 
-/// Colour by colour.
+/// The difference of each colour of two pictures, CIEDE2000.
 pub(super) fn differences(a: &[[f32; 3]], b: &[[f32; 3]]) -> Result<Vec<f32>> {
     let difference = DisplayDifference::new(&RgbSpace::SRGB)?;
     let between = |(a, b): (&[f32; 3], &[f32; 3])| difference.between(a.map(f64::from), b.map(f64::from)) as f32;

@@ -7,10 +7,11 @@ use anyhow::{Context, Result, bail};
 use onelight::Process;
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Basis, Chromaticity, Reconstruction, RgbSpace, color_checker};
+use onelight_picture::{Description, Limits, Source};
 
 use crate::command::develop::exposure::Exposure;
-use crate::picture::{Band, Description, Limits, Source, open};
-use crate::{scene_colours, truth};
+use crate::picture_file::open;
+use crate::scene_colours;
 
 /// Width of a tile in pixels; height of the scene's.
 pub(super) const WIDTH: usize = 288;
@@ -24,7 +25,7 @@ pub(super) struct Frame {
     pub(super) name: String,
     pub(super) width: usize,
     pub(super) height: usize,
-    /// Its different colours.
+    /// Its different colours, scene-linear sRGB, each once.
     pub(super) colours: Vec<[f32; 3]>,
     /// Which of them each pixel has, row by row.
     pub(super) pixels: Vec<u32>,
@@ -49,9 +50,9 @@ impl Frame {
     }
 }
 
-/// The fixture scene.
+/// The fixture scene at the width of a tile.
 pub(super) fn scene() -> Result<Frame> {
-    let rgb = truth::rgb((WIDTH, SCENE_HEIGHT))?;
+    let rgb = onelight_fixtures::scene_rgb((WIDTH, SCENE_HEIGHT))?;
     Ok(Frame::new("scene".to_owned(), (WIDTH, SCENE_HEIGHT), &rgb))
 }
 
@@ -76,7 +77,7 @@ pub(super) fn chart_colours() -> Result<Vec<[f64; 3]>> {
     let basis = Basis::new(Reconstruction::Smooth)?;
     let rgb = |patch: &onelight::spectra::Patch| basis.rgb_of(&basis.white().reflected_by(&patch.reflectance));
     // One patch, cyan, lies a little outside sRGB.
-    Ok(color_checker().iter().map(|patch| rgb(patch).data.0[0].map(|v| v.max(0.0))).collect())
+    Ok(color_checker().iter().map(|patch| rgb(patch).map(|v| v.max(0.0))).collect())
 }
 
 /// A picture of the user's, small and exposed.
@@ -92,25 +93,21 @@ pub(super) fn user(path: &Path, exposure: Exposure) -> Result<Frame> {
     let size = [width, height].map(|pixels| ((pixels as f64 / shrink) as usize).max(1));
     // Sums of the finite pixels that fall on each small one, and their number.
     let mut sums = vec![(Vector3::zeros(), 0.0); size[0] * size[1]];
-    let mut band = Band::default();
-    loop {
-        picture.next_into(&mut band)?;
-        if band.rgb.is_empty() {
-            break;
-        }
-        for (i, rgb) in band.rgb.iter().enumerate().filter(|(_, rgb)| rgb.iter().all(|v| v.is_finite())) {
-            let (x, y) = (i % width * size[0] / width, (band.top + i / width) * size[1] / height);
+    while let Some(band) = picture.next_band()? {
+        for (i, rgb) in band.rgb().iter().enumerate().filter(|(_, rgb)| rgb.iter().all(|v| v.is_finite())) {
+            let (x, y) = (i % width * size[0] / width, (band.top() + i / width) * size[1] / height);
             let (sum, count) = &mut sums[y * size[0] + x];
             *sum += Vector3::from(rgb.map(f64::from));
             *count += 1.0;
         }
     }
-    let mean = |(sum, count): &(Vector3<f64>, f64)| (to_srgb * sum / count.max(1.0)).data.0[0].map(|v| v.max(0.0));
+    let mean =
+        |(sum, count): &(Vector3<f64>, f64)| <[f64; 3]>::from(to_srgb * sum / count.max(1.0)).map(|v| v.max(0.0));
     let rgb: Vec<[f64; 3]> = sums.iter().map(mean).collect();
     let no_light = || format!("{}: the picture holds no light to expose for", path.display());
     let scale = match exposure {
         Exposure::Stops(stops) => stops.exp2(),
-        Exposure::Auto => 0.18 / log_average(&rgb)?.with_context(no_light)?,
+        Exposure::Auto => onelight::spectra::MID_GREY / log_average(&rgb)?.with_context(no_light)?,
     };
     let rgb: Vec<[f32; 3]> = rgb.into_iter().map(|rgb| rgb.map(|v| (scale * v) as f32)).collect();
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();

@@ -1,10 +1,10 @@
 //! The figures of the talk, side by side.
 
 mod banding;
+mod contact_sheet;
 mod develop;
 mod frame;
 mod page;
-mod paper;
 mod plan;
 
 use std::fmt::Write as _;
@@ -12,18 +12,18 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::Args;
-use onelight::Process;
+use onelight::ProcessKeys;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
+use crate::atomic_file::AtomicFiles;
 use crate::command::develop::exposure::Exposure;
 use crate::progress::{Clock, bar};
-use crate::whole::WholeSet;
 use crate::{Report, folders};
+use contact_sheet::{Tile, coded};
 use develop::{Darkroom, Developed, Distance, differences, on_chart};
 use frame::Frame;
 use page::{Row, Section};
-use paper::{Tile, coded};
 use plan::Sheet;
 
 #[derive(Debug, Args)]
@@ -74,16 +74,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
             drafts.push(clock.time("develop", || draft(&mut darkroom, frame, sheet, &chart))?);
             progress.inc(1);
         }
-        let finished: Result<Vec<Section>> =
-            clock.time("draw", || drafts.into_par_iter().map(Draft::finished).collect());
-        sections.extend(finished?);
+        let drawn: Result<Vec<Section>> = clock.time("draw", || drafts.into_par_iter().map(Draft::drawn).collect());
+        sections.extend(drawn?);
     }
     progress.finish_and_clear();
     if arguments.sheets.is_empty() || arguments.sheets.iter().any(|name| name == BANDING) {
         sections.push(clock.time("banding", || bands(&mut darkroom))?);
     }
     let json_sections: Vec<Value> = sections.iter().map(as_json).collect();
-    let mut files = WholeSet::in_folder(&folder);
+    let mut files = AtomicFiles::in_folder(&folder);
     files.add("index.html", page::page(&sections).into_bytes());
     let mut text = String::new();
     for section in sections {
@@ -117,16 +116,16 @@ struct Draft {
 }
 
 impl Draft {
-    fn finished(self) -> Result<Section> {
+    fn drawn(self) -> Result<Section> {
         let Self { mut section, columns, tiles } = self;
-        section.png = paper::sheet(&section.title, columns, &tiles)?;
+        section.png = contact_sheet::sheet(&section.title, columns, &tiles)?;
         Ok(section)
     }
 }
 
 fn draft(darkroom: &mut Darkroom, frame: &Frame, sheet: &Sheet, chart: &[[f64; 3]]) -> Result<Draft> {
     let developed: Vec<Developed> = sheet.shots.iter().map(|shot| darkroom.develop(frame, shot)).collect();
-    let looks: Vec<_> = sheet.shots.iter().map(|shot| darkroom.look(&shot.process).ok()).collect();
+    let looks: Vec<_> = sheet.shots.iter().map(|shot| darkroom.look(&shot.keys).ok()).collect();
     let made: Result<Vec<(Tile, Option<Row>)>> = (0..sheet.shots.len())
         .into_par_iter()
         .map(|i| {
@@ -141,7 +140,7 @@ fn draft(darkroom: &mut Darkroom, frame: &Frame, sheet: &Sheet, chart: &[[f64; 3
                         here: Distance::of(&differences),
                         chart: looks.map(|(plain, turned)| on_chart(plain, turned, chart)).transpose()?,
                         note: String::new(),
-                        picture: Some(paper::differences(frame.width as u32, &differences)?),
+                        picture: Some(contact_sheet::differences(frame.width as u32, &differences)?),
                     })
                 }
                 _ => None,
@@ -170,7 +169,7 @@ fn draft(darkroom: &mut Darkroom, frame: &Frame, sheet: &Sheet, chart: &[[f64; 3
 }
 
 fn bands(darkroom: &mut Darkroom) -> Result<Section> {
-    let look = darkroom.look(&Process::default()).map_err(anyhow::Error::msg)?;
+    let look = darkroom.look(&ProcessKeys::default()).map_err(anyhow::Error::msg)?;
     let (tiles, bands) = banding::tiles(&look)?;
     let title = "Banding of frame buffers before the film".to_owned();
     let row = |band: &banding::Band| Row {
@@ -183,7 +182,7 @@ fn bands(darkroom: &mut Darkroom) -> Result<Section> {
     };
     Ok(Section {
         file: BANDING.to_owned(),
-        png: paper::sheet(&title, 4, &tiles)?,
+        png: contact_sheet::sheet(&title, 4, &tiles)?,
         text: "A ramp from -7 to +3 stops through K-negative, grey and warm, and its dark part with the contrast stretched. The \
                talk's scale factor lifts the scene in the 10-bit float out of its coarse denormals: its steps fall to a third."
             .to_owned(),
@@ -221,7 +220,7 @@ mod tests {
         for sheet in plan::sheets().unwrap() {
             for shot in sheet.shots.iter().filter(|shot| shot.ev == 0) {
                 let Some(beside) = shot.beside else { continue };
-                let (plain, turned) = (darkroom.look(&sheet.shots[beside].process), darkroom.look(&shot.process));
+                let (plain, turned) = (darkroom.look(&sheet.shots[beside].keys), darkroom.look(&shot.keys));
                 let (Ok(plain), Ok(turned)) = (plain, turned) else { continue };
                 let Distance { mean, p95, max } = on_chart(&plain, &turned, &chart).unwrap();
                 let row = format!("| {} | {mean:.2} | {p95:.2} | {max:.2} |", shot.caption);

@@ -6,7 +6,7 @@ use super::develop::Distance;
 
 /// A sheet as PNG with its figures.
 pub(super) struct Section {
-    /// Name of its file.
+    /// Name of the sheet's file beside the page.
     pub(super) file: String,
     pub(super) title: String,
     pub(super) text: String,
@@ -18,13 +18,13 @@ pub(super) struct Section {
 pub(super) struct Row {
     pub(super) shot: String,
     pub(super) beside: String,
-    /// On the picture shown.
+    /// The distance on the picture that the sheet shows.
     pub(super) here: Distance,
     /// On the ColorChecker from -2 to +2 stops.
     pub(super) chart: Option<Distance>,
-    /// Anything else worth a cell.
+    /// What else the cell says.
     pub(super) note: String,
-    /// Difference picture, PNG.
+    /// Picture of the differences, as PNG.
     pub(super) picture: Option<Vec<u8>>,
 }
 
@@ -38,7 +38,7 @@ td:first-child,th:first-child,td:nth-child(2),th:nth-child(2){text-align:left}su
 <p>Each sheet as PNG, and under it what its pictures differ by: CIEDE2000 of the display colours, mean, 95 % and maximum, on the \
 picture shown and on the ColorChecker from -2 to +2 stops. Difference pictures: black 0, red 5, yellow 10, white 20 and more.</p>\n";
 
-/// The page.
+/// The page as HTML, with all pictures in it.
 pub(super) fn page(sections: &[Section]) -> String {
     let mut html = HEAD.to_owned();
     html.push_str("<ul>\n");
@@ -87,7 +87,7 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// RFC 4648.
+/// The alphabet of RFC 4648, section 4.
 fn base64(bytes: &[u8]) -> String {
     const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);

@@ -2,25 +2,25 @@
 
 use onelight::{
     Aim, Approach, Calibration, DyeModel, Error, Filters, FirstControls, HeatGlass, Infrared, Matching, PrinterLight,
-    Process, Projector, Reconstruction, Tail, Word, Wratten,
+    Process, ProcessKeys, Projector, Reconstruction, Tail, Word, Wratten,
 };
 
 /// One picture: a look at an exposure.
 #[derive(Clone)]
 pub(super) struct Shot {
     pub(super) caption: String,
-    pub(super) process: Process,
+    pub(super) keys: ProcessKeys,
     /// Stops that the scene is brighter.
     pub(super) ev: i32,
     /// The shot of the same sheet that it is compared with.
     pub(super) beside: Option<usize>,
 }
 
-/// Pictures that belong together.
+/// Pictures of one comparison, side by side.
 pub(super) struct Sheet {
     pub(super) name: &'static str,
     pub(super) title: &'static str,
-    /// What to look for.
+    /// What the reader should look for.
     pub(super) text: &'static str,
     pub(super) columns: usize,
     pub(super) shots: Vec<Shot>,
@@ -32,22 +32,27 @@ impl Sheet {
     }
 
     /// A shot at normal exposure with nothing to compare it with; its place on the sheet.
-    fn plain(&mut self, caption: impl Into<String>, process: &Process) -> usize {
-        self.shots.push(Shot { caption: caption.into(), process: process.clone(), ev: 0, beside: None });
+    fn plain(&mut self, caption: impl Into<String>, process: &ProcessKeys) -> usize {
+        self.shots.push(Shot { caption: caption.into(), keys: process.clone(), ev: 0, beside: None });
         self.shots.len() - 1
     }
 
     /// The same process, changed, beside the plain one.
-    fn turned(&mut self, caption: impl Into<String>, plain: usize, turn: impl FnOnce(&mut Process)) {
+    fn turned(&mut self, caption: impl Into<String>, plain: usize, turn: impl FnOnce(&mut ProcessKeys)) {
         let Some(usual) = self.shots.get(plain) else { return };
         let mut shot = Shot { caption: caption.into(), beside: Some(plain), ..usual.clone() };
-        turn(&mut shot.process);
+        turn(&mut shot.keys);
         self.shots.push(shot);
     }
 }
 
+/// The usual process of a camera film.
+fn usual(camera: &str) -> Result<ProcessKeys, Error> {
+    Ok(ProcessKeys::from(&Process::for_camera(camera)?))
+}
+
 /// A film with its name in the talk.
-type Named = (&'static str, Process);
+type Named = (&'static str, ProcessKeys);
 
 /// The five films of the talk, each in its usual process.
 pub(super) fn films() -> Result<Vec<Named>, Error> {
@@ -58,15 +63,14 @@ pub(super) fn films() -> Result<Vec<Named>, Error> {
         ("F-reversal Velvia 50", "fuji-velvia-50"),
         ("F-reversal 2 Provia 100F", "fuji-provia-100f"),
     ];
-    films.into_iter().map(|(name, camera)| Ok((name, Process::for_camera(camera)?))).collect()
+    films.into_iter().map(|(name, camera)| Ok((name, usual(camera)?))).collect()
 }
 
-/// Every sheet.
+/// Every comparison of the talk, and each switch.
 pub(super) fn sheets() -> Result<Vec<Sheet>, Error> {
     let films = films()?;
-    let negative = Process::default();
-    let (k_reversal, f_reversal) =
-        (Process::for_camera("kodak-ektachrome-100")?, Process::for_camera("fuji-velvia-50")?);
+    let negative = ProcessKeys::default();
+    let (k_reversal, f_reversal) = (usual("kodak-ektachrome-100")?, usual("fuji-velvia-50")?);
     Ok(vec![
         exposures(&films),
         approaches(&films),
@@ -79,21 +83,18 @@ pub(super) fn sheets() -> Result<Vec<Sheet>, Error> {
         printer(&negative),
         projectors(&[("K-negative", &negative), ("K-reversal", &k_reversal)]),
         overexposure(&negative),
-        matching(&[
-            ("Portra 160", &Process::for_camera("kodak-portra-160")?),
-            ("5219", &Process::for_camera("kodak-5219")?),
-        ]),
+        matching(&[("Portra 160", &usual("kodak-portra-160")?), ("5219", &usual("kodak-5219")?)]),
     ])
 }
 
 fn exposures(films: &[Named]) -> Sheet {
-    /// Two stops apart.
+    /// Exposures of a row of pictures, in stops about the normal one.
     const EXPOSURES: [i32; 5] = [-4, -2, 0, 2, 4];
     let text = "Tone mapping above, films below, two stops apart. Films are steeper in the middle, darker in the shadows, and let \
                 bright colours fade to white where tone mapping keeps or clips them; greys are tinted. Each is compared with \
                 Reinhard's curve at the same exposure.";
     let mut sheet = Sheet::new("films", "Films over exposures", text, EXPOSURES.len());
-    let baseline = |approach| Process { approach, ..Process::default() };
+    let baseline = |approach| ProcessKeys { approach, ..ProcessKeys::default() };
     let rows = [
         ("Reinhard", Approach::Reinhard),
         ("Reinhard, luminance", Approach::ReinhardLuminance),
@@ -105,7 +106,7 @@ fn exposures(films: &[Named]) -> Sheet {
             let beside = (row > 0).then_some(column);
             sheet.shots.push(Shot {
                 caption: if ev == 0 { format!("{name} 0 EV") } else { format!("{name} {ev:+} EV") },
-                process: process.clone(),
+                keys: process.clone(),
                 ev,
                 beside,
             });
@@ -119,7 +120,7 @@ fn approaches(films: &[Named]) -> Sheet {
                 those of the scene, because dyes and the light between them are missing.";
     let mut sheet = Sheet::new("approaches", "First approach against second", text, 2);
     for (name, process) in films {
-        let first = Process { approach: Approach::First, ..process.clone() };
+        let first = ProcessKeys { approach: Approach::First, ..process.clone() };
         let plain = sheet.plain(format!("first: {name}"), &first);
         sheet.turned(format!("second: {name}"), plain, |p| p.approach = Approach::Second);
     }
@@ -130,7 +131,8 @@ fn by_hand(films: &[Named]) -> Sheet {
     let text = "What a hand can change in the first approach: one matrix after the tone curve, and the curve itself.";
     let mut sheet = Sheet::new("controls", "Controls of the first approach", text, 3);
     let Some((_, process)) = films.first() else { return sheet };
-    let plain = sheet.plain("first approach, K-negative", &Process { approach: Approach::First, ..process.clone() });
+    let plain =
+        sheet.plain("first approach, K-negative", &ProcessKeys { approach: Approach::First, ..process.clone() });
     let mut control = |name: &str, first: FirstControls| sheet.turned(name, plain, |p| p.first = first);
     let usual = FirstControls::default;
     control("contrast 1.2", FirstControls { contrast: 1.2, ..usual() });
@@ -152,7 +154,7 @@ fn aims(films: &[Named]) -> Sheet {
     sheet
 }
 
-fn iterations(negative: &Process) -> Sheet {
+fn iterations(negative: &ProcessKeys) -> Sheet {
     let text = "The talk finds the printer's lights by iteration from equal ones: one is practically enough. Exact is a linear solve.";
     let mut sheet = Sheet::new("iterations", "Calibration by iteration", text, 3);
     let exact = sheet.plain("exact", negative);
@@ -166,7 +168,7 @@ fn iterations(negative: &Process) -> Sheet {
     sheet
 }
 
-fn infrared(negative: &Process) -> Sheet {
+fn infrared(negative: &ProcessKeys) -> Sheet {
     let text = "With sensitivities that fall beyond their sheet, infrared and glass do next to nothing. Held flat to 1000 nm, as the \
                 talk's figures imply, the print's red layer sees the infrared that gelatin filters let pass: without heat glass the \
                 printer cannot be calibrated at all; cut at 780 nm it can.";
@@ -182,8 +184,8 @@ fn infrared(negative: &Process) -> Sheet {
     sheet
 }
 
-fn matrices(films: &[(&str, &Process)]) -> Sheet {
-    let text = "Ways from RGB to a spectrum. Three raw boxes are the talk's \"color balance not adjusted properly\": saturated colours \
+fn matrices(films: &[(&str, &ProcessKeys)]) -> Sheet {
+    let text = "Four methods that make a spectrum of RGB. Three raw boxes are the talk's \"color balance not adjusted properly\": saturated colours \
                 move most, greys not at all.";
     let mut sheet = Sheet::new("matrices", "Spectra for RGB", text, 4);
     for (name, process) in films {
@@ -195,7 +197,7 @@ fn matrices(films: &[(&str, &Process)]) -> Sheet {
     sheet
 }
 
-fn dyes(films: &[(&str, &Process)]) -> Sheet {
+fn dyes(films: &[(&str, &ProcessKeys)]) -> Sheet {
     let text = "From densities to dye. The wedge gives the sheet's densities together; read literally, each density is its own dye's \
                 amount and the densities of the others come on top. Last, the talk's formula with a matching constant for each dye of the \
                 negative, which nearly is the wedge.";
@@ -203,7 +205,7 @@ fn dyes(films: &[(&str, &Process)]) -> Sheet {
     for (name, process) in films {
         for aim in [Aim::Neutral, Aim::Sheet] {
             let word = aim.word();
-            let usual = sheet.plain(format!("{word}, wedge: {name}"), &Process { aim, ..(*process).clone() });
+            let usual = sheet.plain(format!("{word}, wedge: {name}"), &ProcessKeys { aim, ..(*process).clone() });
             sheet.turned(format!("{word}, literal: {name}"), usual, |p| p.dyes = DyeModel::Literal);
         }
     }
@@ -211,7 +213,7 @@ fn dyes(films: &[(&str, &Process)]) -> Sheet {
     sheet
 }
 
-fn printer(negative: &Process) -> Sheet {
+fn printer(negative: &ProcessKeys) -> Sheet {
     let without = |gone: Wratten| {
         let rest: Vec<Wratten> = Wratten::ALL.into_iter().filter(|filter| *filter != gone).collect();
         Filters::of(&rest)
@@ -233,7 +235,7 @@ fn printer(negative: &Process) -> Sheet {
     sheet
 }
 
-fn projectors(films: &[(&str, &Process)]) -> Sheet {
+fn projectors(films: &[(&str, &ProcessKeys)]) -> Sheet {
     let text = "An eye adapted to the lamp sees nearly the same film by any of them; beside a 6500 K display a theatre's light is warm.";
     let mut sheet = Sheet::new("projectors", "The projector's lamp", text, 4);
     for (name, process) in films {
@@ -249,7 +251,7 @@ fn projectors(films: &[(&str, &Process)]) -> Sheet {
     sheet
 }
 
-fn overexposure(negative: &Process) -> Sheet {
+fn overexposure(negative: &ProcessKeys) -> Sheet {
     let text = "The negative exposed over or under normal, the print corrected for it: grey stays. Underexposed, shadows fall on the \
                 toe and lose contrast; overexposed, little changes but highlights.";
     let mut sheet = Sheet::new("overexposure", "Exposure of the negative, print corrected", text, 3);
@@ -260,7 +262,7 @@ fn overexposure(negative: &Process) -> Sheet {
     sheet
 }
 
-fn matching(films: &[(&str, &Process)]) -> Sheet {
+fn matching(films: &[(&str, &ProcessKeys)]) -> Sheet {
     let text = "Balanced on a grey card, or by the sheet's own units, under which light of another colour than the film is made for keeps its \
                 colour: 5219 is a tungsten film and shows daylight blue. What sensitivities and curves of a sheet disagree on adds to it.";
     let mut sheet = Sheet::new("matching", "Matching of exposure and curves", text, 2);
@@ -299,7 +301,9 @@ mod tests {
             .unwrap()
             .iter()
             .flat_map(|sheet| &sheet.shots)
-            .filter_map(|shot| shot.process.look().err().map(|error| (shot.caption.clone(), error)))
+            .filter_map(|shot| {
+                shot.keys.process().and_then(|process| process.look()).err().map(|error| (shot.caption.clone(), error))
+            })
             .map(|(caption, error)| {
                 assert!(error.is_unreachable_aim(), "{caption}: {error}");
                 caption

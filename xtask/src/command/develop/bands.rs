@@ -3,9 +3,9 @@
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
+use onelight_picture::{Band, BandSink, PictureReader};
 
-use crate::picture::{Band, BandSink, PictureReader};
-use crate::whole::NotOfThisFile;
+use crate::atomic_file::NotOfThisFile;
 
 /// How long each step was at work. Steps run beside each other, so that their sum is more than what passed.
 #[derive(Debug, Clone, Copy, Default)]
@@ -26,7 +26,8 @@ pub(super) fn pass(
 ) -> Result<Busy> {
     let mut busy = Busy::default();
     let [mut coming, mut here, mut going] = <[Band; 3]>::default();
-    let mut read = |band: &mut Band| picture.next_into(band).map_err(|error| anyhow::Error::new(NotOfThisFile(error)));
+    let mut read =
+        |band: &mut Band| picture.next_into(band).map_err(|error| anyhow::Error::new(NotOfThisFile(error.into())));
     timed(&mut busy.reading, || read(&mut here))?;
     loop {
         let last = here.rows() == 0;
@@ -57,7 +58,7 @@ pub(super) fn pass(
 /// Shows every band of a picture to `look`, while the next one is read.
 ///
 /// # Errors
-/// What reading says.
+/// What reading a band reports, in one sentence.
 pub(super) fn look_through(picture: &mut PictureReader<'_>, mut look: impl FnMut(&mut Band) + Send) -> Result<()> {
     let [mut coming, mut here] = <[Band; 2]>::default();
     picture.next_into(&mut here)?;

@@ -1,14 +1,14 @@
 //! How bright a picture is, and how much light it is given.
 
-/// A picture whose log average lies further from mid grey, in stops, is worth a word.
+use onelight::spectra::MID_GREY;
+
+/// A picture whose log average lies further from mid grey, in stops, gets a note.
 const FAR_STOPS: f64 = 4.0;
-/// What the log average of a picture should be.
-const MID_GREY: f64 = 0.18;
 
 /// How a picture is exposed before it meets the film.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Exposure {
-    /// By so many stops.
+    /// Brighter by so many stops.
     Stops(f64),
     /// So that its log average comes to mid grey.
     Auto,
@@ -85,7 +85,7 @@ impl Meter {
     }
 }
 
-/// What one row shows.
+/// What one row of a picture adds to the meter.
 #[derive(Debug, Default)]
 pub(super) struct RowLight {
     pub(super) hard: usize,

@@ -3,11 +3,12 @@
 use anyhow::Result;
 use clap::ValueEnum;
 use indicatif::ProgressBar;
-use onelight::{Look, Process};
+use onelight::Look;
+use onelight::baked::{self, Baked, Recipe};
+use onelight_picture::Band;
 use rayon::prelude::*;
 
-use crate::compiled::{self, Compiled, Recipe};
-use crate::picture::Band;
+use crate::look::ChosenLook;
 
 /// How the film is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -24,29 +25,29 @@ pub(crate) enum Form {
 
 /// A film, ready for any number of pictures on any number of threads.
 pub(crate) enum Film {
-    /// The film itself.
+    /// The exact film in float64: the slowest, and what the others are measured against.
     Exact(Box<Look>),
     /// What was baked of it.
-    Compiled(Box<Compiled>),
+    Baked(Box<Baked>),
 }
 
 impl Film {
-    pub(crate) fn new(process: &Process, form: Form) -> Result<Self> {
-        let film = process.look()?;
+    pub(crate) fn new(look: &ChosenLook, form: Form) -> Result<Self> {
+        let film = look.look()?;
         let form = match form {
             Form::Reference => return Ok(Self::Exact(Box::new(film))),
-            Form::Plain => compiled::Form::Plain,
-            Form::Structured => compiled::Form::Structured,
-            Form::Direct => compiled::Form::Direct,
+            Form::Plain => baked::Form::Plain,
+            Form::Structured => baked::Form::Structured,
+            Form::Direct => baked::Form::Direct,
         };
-        Ok(Self::Compiled(Box::new(Compiled::new(&film, process, &Recipe::usual(form), None)?)))
+        Ok(Self::Baked(Box::new(film.baked(&Recipe::of(form))?)))
     }
 
     /// Its form, in words.
     pub(super) fn describe(&self) -> String {
         match self {
             Self::Exact(_) => "reference".to_owned(),
-            Self::Compiled(compiled) => compiled.describe(),
+            Self::Baked(baked) => baked.describe(),
         }
     }
 
@@ -59,8 +60,8 @@ impl Film {
                 }
                 progress.inc(1);
             }),
-            Self::Compiled(compiled) => {
-                compiled.apply_to_slice(&mut band.rgb);
+            Self::Baked(baked) => {
+                baked.map_in_place(band.rgb_mut());
                 progress.inc(band.rows() as u64);
             }
         }
@@ -70,7 +71,7 @@ impl Film {
     pub(super) fn max(&self) -> Option<f64> {
         match self {
             Self::Exact(_) => None,
-            Self::Compiled(compiled) => compiled.max(),
+            Self::Baked(baked) => baked.max(),
         }
     }
 }

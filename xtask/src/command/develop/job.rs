@@ -4,8 +4,11 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 use indicatif::ProgressBar;
+use onelight::TransferCurve;
 use onelight::spectra::Chromaticity;
-use onelight::{Process, TransferCurve};
+use onelight_picture::{
+    Band, BandSink, Chromaticities, ColourTag, Description, Limits, PngBits, PngSettings, PngTransfer,
+};
 use rayon::prelude::*;
 
 use super::bands::{Busy, look_through, pass};
@@ -13,14 +16,12 @@ use super::exposure::{Exposure, Meter};
 use super::film::Film;
 use super::light::{InputPrimaries, Light};
 use crate::exposure::SceneExposure;
-use crate::picture::{
-    Band, BandSink, Bits, Chromaticities, Coding, ColourTag, Description, Limits, open, write_exr_bands,
-    write_png_bands,
-};
+use crate::look::ChosenLook;
+use crate::picture_file::{open, write_exr_bands, write_png_bands};
 
 /// Everything that decides how a picture is developed; the same for all pictures of a run.
 pub(super) struct Settings {
-    pub(super) process: Process,
+    pub(super) look: ChosenLook,
     pub(super) film: Film,
     pub(super) exposure: Exposure,
     /// What camera and frame buffer make of a picture's numbers.
@@ -32,12 +33,12 @@ pub(super) struct Settings {
     pub(super) limits: Limits,
 }
 
-/// What is written.
+/// The kind of picture that is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Target {
     /// The display window, display-coded.
-    Png(Bits),
-    /// The data window, linear.
+    Png(PngBits),
+    /// The data window, display-linear, 32-bit floats.
     Exr,
 }
 
@@ -53,7 +54,7 @@ pub(super) struct Developed {
     pub(super) busy: Busy,
 }
 
-/// One picture to develop.
+/// One picture to develop, and where it goes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Order<'a> {
     pub(super) input: &'a Path,
@@ -72,11 +73,12 @@ pub(super) const DIGEST_KEY: &str = "onelight job";
 /// One sentence that starts with the path it is about; then `output` is as it was before.
 pub(super) fn develop_picture(settings: &Settings, order: &Order<'_>, progress: &ProgressBar) -> Result<Developed> {
     let input = order.input;
-    let Settings { process, film, exposure, input_primaries, target, .. } = settings;
+    let Settings { look, film, exposure, input_primaries, target, .. } = settings;
     let mut picture = open(input, &settings.limits)?;
     let description = picture.description().clone();
     let mut notes = description.notes.clone();
-    let light = Light::new(&description, process, settings.input_coding, *input_primaries, &settings.scene, &mut notes);
+    let light =
+        Light::new(&description, &look.process, settings.input_coding, *input_primaries, &settings.scene, &mut notes);
     let light = light.with_context(|| input.display().to_string())?;
     let height = description.height as u64;
 
@@ -105,7 +107,7 @@ pub(super) fn develop_picture(settings: &Settings, order: &Order<'_>, progress: 
         beyond += film.max().map_or(0, |max| brighter(band, max));
         film.develop(band, progress);
     };
-    let busy = write(order, *target, process, &description, |sink| pass(&mut picture, develop, sink))?;
+    let busy = write(order, *target, look, &description, |sink| pass(&mut picture, develop, sink))?;
 
     notes.extend(meter.notes(*exposure, ev));
     if beyond > 0 {
@@ -123,7 +125,7 @@ pub(super) fn develop_picture(settings: &Settings, order: &Order<'_>, progress: 
 
 /// Pixels with a channel over `max`.
 fn brighter(band: &Band, max: f64) -> usize {
-    let rows = band.rgb.par_chunks(band.width.max(1));
+    let rows = band.rgb().par_chunks(band.width().max(1));
     rows.map(|row| row.iter().filter(|rgb| rgb.iter().any(|v| f64::from(*v) > max)).count()).sum()
 }
 
@@ -131,15 +133,16 @@ fn brighter(band: &Band, max: f64) -> usize {
 fn write<T>(
     order: &Order<'_>,
     target: Target,
-    process: &Process,
+    look: &ChosenLook,
     scene: &Description,
     fill: impl FnOnce(&mut dyn BandSink) -> Result<T>,
 ) -> Result<T> {
-    let space = process.output_space.space();
+    let spaces = look.process.spaces();
+    let space = spaces.output_space.space();
     let xy = |c: Chromaticity| [c.x as f32, c.y as f32];
     let [red, green, blue] = space.primaries.map(xy);
     let primaries = Chromaticities { red, green, blue, white: xy(space.white) };
-    let look = process.to_toml();
+    let look = look.text_in(order.output.parent().unwrap_or(Path::new("")));
     let software = format!("onelight {}", env!("CARGO_PKG_VERSION"));
     let mut texts = vec![("Software", software.as_str()), ("onelight look", look.as_str())];
     texts.extend(order.digest.map(|digest| (DIGEST_KEY, digest)));
@@ -148,12 +151,13 @@ fn write<T>(
     match target {
         Target::Exr => write_exr_bands(path, &picture, &texts, fill),
         Target::Png(bits) => {
-            let coding = match process.output_coding {
-                TransferCurve::Srgb => Coding::Srgb,
-                TransferCurve::Gamma24 => Coding::Gamma24,
-                TransferCurve::Linear => Coding::Linear,
+            let transfer = match spaces.output_coding {
+                TransferCurve::Srgb => PngTransfer::Srgb,
+                TransferCurve::Gamma24 => PngTransfer::Gamma24,
+                TransferCurve::Linear => PngTransfer::Linear,
             };
-            write_png_bands(path, &picture, bits, Some(&ColourTag { coding, primaries }), &texts, fill)
+            let settings = PngSettings { bits, tag: Some(ColourTag { transfer, primaries }) };
+            write_png_bands(path, &picture, settings, &texts, fill)
         }
     }
 }

@@ -4,11 +4,11 @@ use anyhow::{Context, Result};
 use onelight::spectra::Chromaticity;
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::{Process, TransferCurve, Word};
+use onelight_picture::{Band, Description, RowMut, Source, TiffSamples};
 use rayon::prelude::*;
 
 use super::exposure::{Meter, RowLight};
 use crate::exposure::SceneExposure;
-use crate::picture::{Band, Description, RowMut, Samples, Source};
 use crate::scene_colours;
 
 /// Whose word counts for the primaries of a picture.
@@ -16,7 +16,7 @@ use crate::scene_colours;
 pub(crate) enum InputPrimaries {
     /// The file's, and the look's where it says nothing.
     OfFile,
-    /// The look's.
+    /// Those of the look, whatever the file says.
     OfLook,
 }
 
@@ -43,14 +43,14 @@ impl Light {
         notes: &mut Vec<String>,
     ) -> Result<Self> {
         let to_input = if picture.primaries.is_some() && primaries == InputPrimaries::OfLook {
-            let space = process.input_space.word();
+            let space = process.spaces().input_space.word();
             notes.push(format!("the file's own chromaticities give way to --input-space {space}"));
             None
         } else {
             scene_colours::to_input_space(picture.primaries.as_ref(), process)?
         };
         let coding = coding_of(picture, coding, notes);
-        let to_xyz = process.input_space.space().with_white(Chromaticity::black_body_6500_k()).to_xyz();
+        let to_xyz = process.spaces().input_space.space().with_white(Chromaticity::black_body_6500_k()).to_xyz();
         let to_xyz = to_xyz.context("the input space")?;
         let luminance = (to_xyz * to_input.unwrap_or_else(Matrix3::identity)).row(1).transpose();
         notes.extend(scene.notes.iter().cloned());
@@ -72,8 +72,9 @@ impl Light {
             None => self.each_row(band, meter, |rgb| *rgb = rgb.map(|v| (f64::from(v) * scale) as f32)),
             Some(matrix) => {
                 let matrix = matrix * scale;
-                let convert =
-                    |rgb: &mut [f32; 3]| *rgb = (matrix * Vector3::from(finite(*rgb))).data.0[0].map(|v| v as f32);
+                let convert = |rgb: &mut [f32; 3]| {
+                    *rgb = <[f64; 3]>::from(matrix * Vector3::from(finite(*rgb))).map(|v| v as f32);
+                };
                 self.each_row(band, meter, convert);
             }
         }
@@ -120,8 +121,8 @@ fn coding_of(picture: &Description, named: Option<TransferCurve>, notes: &mut Ve
             TransferCurve::Linear
         }
         (Some(coding), _) => coding,
-        (None, Source::Exr | Source::Tiff { samples: Samples::Float, .. }) => TransferCurve::Linear,
-        (None, Source::Png { .. } | Source::Tiff { samples: Samples::Integer, .. }) => {
+        (None, Source::Exr | Source::Tiff { samples: TiffSamples::Float, .. }) => TransferCurve::Linear,
+        (None, Source::Png { .. } | Source::Tiff { samples: TiffSamples::Integer, .. }) => {
             notes.push("the picture's integers are taken for sRGB-coded (--input-coding says otherwise)".to_owned());
             TransferCurve::Srgb
         }
@@ -130,6 +131,5 @@ fn coding_of(picture: &Description, named: Option<TransferCurve>, notes: &mut Ve
 
 /// What a channel counts as before it is mixed with others.
 fn finite(rgb: [f32; 3]) -> [f64; 3] {
-    let limit = onelight::SCENE_MAX;
-    rgb.map(|v| if v.is_nan() { 0.0 } else { f64::from(v).clamp(-limit, limit) })
+    rgb.map(|v| onelight::spectra::finite(f64::from(v)))
 }

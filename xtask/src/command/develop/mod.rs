@@ -3,6 +3,7 @@ pub(crate) mod exposure;
 mod film;
 mod job;
 mod light;
+mod paths;
 mod sequence;
 
 use std::fmt::Write as _;
@@ -11,18 +12,20 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use clap::Args;
 use onelight::{TransferCurve, Word};
+use onelight_picture::{Limits, PngBits};
 use serde_json::json;
 
 use self::exposure::Exposure;
 use self::film::{Film, Form};
 use self::job::{Developed, Order, Settings, Target, develop_picture};
 use self::light::InputPrimaries;
+use self::paths::same_file;
 use self::sequence::{FrameNumbers, Memory, Shard, Summary};
 use crate::exposure::ExposureArguments;
-use crate::look::{LookArguments, words};
-use crate::picture::{Bits, Limits};
+use crate::look::LookArguments;
 use crate::progress::{Clock, bar};
-use crate::{Report, folders, whole};
+use crate::words::words;
+use crate::{Report, atomic_file, folders};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -94,22 +97,23 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
             arguments.output.display()
         );
     }
-    let mut process = arguments.look.process()?;
+    let mut look = arguments.look.chosen()?;
+    let spaces = look.process.spaces_mut();
     let mut notes = Vec::new();
     if target == Target::Exr && arguments.bits.is_some() {
         notes.push("an EXR holds 32-bit floats: --bits is not used".to_owned());
     }
-    if target == Target::Exr && process.output_coding != TransferCurve::Linear {
-        notes.push(format!("an EXR holds linear light: not coded by {}", process.output_coding.word()));
-        process.output_coding = TransferCurve::Linear;
+    if target == Target::Exr && spaces.output_coding != TransferCurve::Linear {
+        notes.push(format!("an EXR holds linear light: not coded by {}", spaces.output_coding.word()));
+        spaces.output_coding = TransferCurve::Linear;
     }
-    let scene = arguments.camera.resolve(&process)?;
+    let scene = arguments.camera.resolve(&look)?;
     if scene.is_metered() && arguments.ev == Exposure::Auto {
         bail!("--ev auto exposes by the picture: the camera's settings change nothing, expected one or the other");
     }
     let settings = Settings {
-        film: clock.time("compile", || Film::new(&process, arguments.form))?,
-        process,
+        film: clock.time("compile", || Film::new(&look, arguments.form))?,
+        look,
         exposure: arguments.ev,
         scene,
         input_coding: arguments.input_coding,
@@ -131,7 +135,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         let summary = Summary { input, output, notes, as_json: arguments.json };
         return sequence::run(&settings, plan, memory.unwrap_or_default(), clock, summary);
     }
-    whole::remove_leftovers([arguments.output.as_path()]);
+    atomic_file::remove_leftovers([arguments.output.as_path()]);
     let progress = bar("developing", 0);
     let order = Order { input: &arguments.input, output: &arguments.output, digest: None };
     let developed = clock.time("develop", || develop_picture(&settings, &order, &progress));
@@ -139,7 +143,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let Developed { size, ev, notes: more, busy } = developed?;
     notes.extend(more);
 
-    let process = &settings.process;
+    let process = &settings.look.process;
     let mut text = String::new();
     let _ = writeln!(text, "{output}   {}x{}, {}, {ev:+.2} EV", size[0], size[1], process.name());
     for note in &notes {
@@ -163,14 +167,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     Ok(Report { text, json, as_json: arguments.json })
 }
 
-fn same_file(a: &Path, b: &Path) -> bool {
-    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
-}
-
 fn target(path: &Path, bits: Option<&str>) -> Result<Target> {
     match path.extension().map(|e| e.to_string_lossy().to_lowercase()).as_deref() {
-        Some("png") if bits == Some("16") => Ok(Target::Png(Bits::Sixteen)),
-        Some("png") => Ok(Target::Png(Bits::Eight)),
+        Some("png") if bits == Some("16") => Ok(Target::Png(PngBits::Sixteen)),
+        Some("png") => Ok(Target::Png(PngBits::Eight)),
         Some("exr") => Ok(Target::Exr),
         _ => bail!("{}: the output's name ends in neither .png nor .exr, expected one of them", path.display()),
     }

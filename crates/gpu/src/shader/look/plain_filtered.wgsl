@@ -1,4 +1,4 @@
-// What a plain look is bound to; an engine gives its own numbers of group and bindings.
+// What a plain look is bound to. `wgsl` writes the group and the numbers that it is asked for.
 @group(0) @binding(0) var<uniform> onelight_look: OnelightPlain;
 @group(0) @binding(1) var onelight_table: texture_3d<f32>;
 @group(0) @binding(3) var onelight_filter: sampler;

@@ -1,8 +1,9 @@
 use super::*;
 use crate::kernel::levels;
 use crate::{
-    Decode, DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, Interpolation, Lut1d, Lut3d,
-    Mix, PixelMap, PlainLut, PowerCoding, Rows, SceneSampler, Shaper, StructuredLut, StructuredParts,
+    Decode, DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, IDENTITY, Interpolation,
+    Lut1d, Lut3d, Mix, PixelMap, PlainLut, PowerCoding, Rows, SceneSampler, Shaper, SimdLevel, StructuredLut,
+    StructuredParts,
 };
 use half::f16;
 
@@ -10,7 +11,6 @@ use half::f16;
 /// few roundings of the result come on top.
 const FLOAT: f32 = 1e-5;
 
-const IDENTITY: Rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 const MIXED: Rows = [[0.9, 0.08, 0.02], [0.05, 0.9, 0.05], [-0.02, 0.1, 0.92]];
 
 const HARD: [f32; 14] = [
@@ -33,8 +33,8 @@ const HARD: [f32; 14] = [
 fn table(size: usize) -> Lut3d {
     let identity = Lut3d::identity(size).unwrap();
     let look =
-        |&[x, y, z]: &[f32; 3]| [x * x + 0.05 * y, (1.5 * y).sin() * (1.0 - 0.1 * x), (z + 0.1).sqrt() - 0.2 * x * y];
-    Lut3d::new(size, identity.entries().iter().map(look).collect()).unwrap()
+        |[x, y, z]: [f32; 3]| [x * x + 0.05 * y, (1.5 * y).sin() * (1.0 - 0.1 * x), (z + 0.1).sqrt() - 0.2 * x * y];
+    Lut3d::new(size, identity.entries().map(look).collect()).unwrap()
 }
 
 /// A curve that rises, a little otherwise in each channel.
@@ -286,16 +286,16 @@ fn float64_is_the_same_form_without_the_rounding() {
 #[test]
 fn instructions_can_be_chosen() {
     let (form, rgba) = (plain(Interpolation::Tetrahedral), scene(1000));
-    let of = |vectors: crate::Vectors| {
+    let of = |level: SimdLevel| {
         let mut to = vec![0.0_f32; rgba.len()];
         let from = crate::Pixels::new(&rgba, Channels::Rgba, [1000, 1]).unwrap();
-        form.map_on(vectors, &from, &mut crate::PixelsMut::new(&mut to, Channels::Rgba, [1000, 1]).unwrap()).unwrap();
+        form.map_on(level, &from, &mut crate::PixelsMut::new(&mut to, Channels::Rgba, [1000, 1]).unwrap()).unwrap();
         to.into_iter().map(f32::to_bits).collect::<Vec<_>>()
     };
-    let available = crate::Vectors::available();
-    assert_eq!(available.last().unwrap().name(), crate::Vectors::best().name());
-    assert!(of(*available.last().unwrap()) == of(crate::Vectors::best()));
-    let mut names: Vec<_> = available.iter().map(|vectors| vectors.name()).collect();
+    let available = SimdLevel::available();
+    assert_eq!(available.last().unwrap().name(), SimdLevel::best().name());
+    assert!(of(*available.last().unwrap()) == of(SimdLevel::best()));
+    let mut names: Vec<_> = available.iter().map(|level| level.name()).collect();
     names.dedup();
     assert_eq!(names.len(), available.len());
 }
@@ -388,5 +388,5 @@ fn no_pixels_are_no_trouble() {
         map::<f32, u8>(&form, Level::new(), (&[], layout), (&mut [], layout));
         map_in_place::<f32>(&form, Level::new(), &mut [], layout);
     }
-    map_colours(&form, &mut []);
+    form.map_colours(&mut []);
 }

@@ -3,8 +3,9 @@
 use std::str::FromStr;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
+use onelight_picture::{PictureReader, PngBits};
+
 use super::super::job::Target;
-use crate::picture::{Bits, PictureReader};
 
 /// How much memory frames may take together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,19 +40,19 @@ impl FromStr for Memory {
 /// What developing a picture takes, at most: three bands, if it has so many, and what reader, meter and writer hold
 /// beside.
 pub(super) fn needed(picture: &PictureReader<'_>, target: Target) -> u64 {
-    let holds = picture.holds();
+    let memory = picture.memory();
     let description = picture.description();
     let samples = description.channels.count() as u64;
-    let bands = (description.width as u64 * description.height as u64).div_ceil(holds.band_pixels.max(1)).min(3);
+    let bands = description.pixels().div_ceil(memory.band_pixels.max(1)).min(3);
     let written = match target {
-        Target::Png(Bits::Eight) => samples,
-        Target::Png(Bits::Sixteen) => 2 * samples,
+        Target::Png(PngBits::Eight) => samples,
+        Target::Png(PngBits::Sixteen) => 2 * samples,
         // As rows, as blocks, and packed.
         Target::Exr => 3 * 4 * samples,
     };
     // The meter keeps a logarithm for each pixel.
     let for_each_pixel = bands * 4 * samples + 8 + written;
-    holds.band_pixels.saturating_mul(for_each_pixel).saturating_add(holds.bytes_beside)
+    memory.band_pixels.saturating_mul(for_each_pixel).saturating_add(memory.bytes_beside)
 }
 
 /// Lets frames begin as long as there is room, and a frame that is larger than all of it alone.

@@ -7,11 +7,13 @@ use std::{fs, io};
 
 use anyhow::Result;
 use onelight::{Look, TransferCurve, Word};
+use onelight_picture::PngBits;
 use sha2::{Digest, Sha256};
 
 use super::super::job::{DIGEST_KEY, Settings, Target};
 use super::super::light::InputPrimaries;
-use crate::picture::{Bits, text_of_finished};
+use crate::own_stock::hex;
+use crate::picture_file::text_of_complete_picture;
 
 /// All that decides how the frames of a job look, but the frames.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,13 +26,13 @@ impl Recipe {
     /// # Errors
     /// Those of compiling the look.
     pub(super) fn new(settings: &Settings) -> Result<Self> {
-        let Settings { process, film, exposure, scene, input_coding, input_primaries, target, limits: _ } = settings;
+        let Settings { look, film, exposure, scene, input_coding, input_primaries, target, limits: _ } = settings;
         let mut text = String::new();
         let mut line = |key: &str, value: &dyn std::fmt::Display| {
             let _ = writeln!(text, "{key}: {value}");
         };
         line("onelight", &env!("CARGO_PKG_VERSION"));
-        line("film", &film_in_numbers(&process.look()?));
+        line("film", &film_in_numbers(&look.look()?));
         line("form", &film.describe());
         line("exposure", &format_args!("{exposure:?}"));
         line("scene", &scene.in_numbers());
@@ -45,12 +47,13 @@ impl Recipe {
         line(
             "target",
             &match target {
-                Target::Png(Bits::Eight) => "PNG of 8 bits",
-                Target::Png(Bits::Sixteen) => "PNG of 16 bits",
+                Target::Png(PngBits::Eight) => "PNG of 8 bits",
+                Target::Png(PngBits::Sixteen) => "PNG of 16 bits",
                 Target::Exr => "EXR",
             },
         );
-        line("look", &process.to_toml());
+        // Data sheets of one's own count by their digests, wherever they are.
+        line("look", &look.text_anywhere());
         Ok(Self(text))
     }
 
@@ -69,9 +72,9 @@ impl Recipe {
     }
 }
 
-/// Whether `output` is whole and was developed by this digest.
+/// Whether `output` is complete and was developed by this digest.
 pub(super) fn is_done(output: &Path, digest: &str) -> bool {
-    text_of_finished(output, DIGEST_KEY).is_some_and(|found| found == digest)
+    text_of_complete_picture(output, DIGEST_KEY).is_some_and(|found| found == digest)
 }
 
 /// A digest of what the film makes of some colours: another where the physics or its data have changed, though the version
@@ -92,23 +95,16 @@ fn film_in_numbers(film: &Look) -> String {
     hex(&digest.finalize())
 }
 
-fn hex(bytes: &[u8]) -> String {
-    bytes.iter().fold(String::new(), |mut text, byte| {
-        let _ = write!(text, "{byte:02x}");
-        text
-    })
-}
-
 #[cfg(test)]
 mod tests {
-    use onelight::Process;
+    use onelight::ProcessKeys;
 
     use super::*;
 
-    fn numbers(change: impl FnOnce(&mut Process)) -> String {
-        let mut process = Process::default();
-        change(&mut process);
-        film_in_numbers(&process.look().unwrap())
+    fn numbers(change: impl FnOnce(&mut ProcessKeys)) -> String {
+        let mut keys = ProcessKeys::default();
+        change(&mut keys);
+        film_in_numbers(&keys.process().unwrap().look().unwrap())
     }
 
     /// A tenth of a printer point is 0.0025 in log10 exposure.
@@ -116,8 +112,8 @@ mod tests {
     fn small_changes_of_the_film_show() {
         let film = numbers(|_| {});
         assert_eq!(film, numbers(|_| {}));
-        assert_ne!(film, numbers(|process| process.points[2] = 0.1));
-        assert_ne!(film, numbers(|process| process.neutral_density = 0.7001));
+        assert_ne!(film, numbers(|keys| keys.points[2] = 0.1));
+        assert_ne!(film, numbers(|keys| keys.neutral_density = 0.7001));
     }
 
     /// The first test of FIPS 180-2: digests are the same for every build.

@@ -3,11 +3,12 @@
 mod budget;
 mod digest;
 mod numbers;
+mod outcome;
 mod pattern;
 mod plan;
+mod progress;
 mod runner;
 mod summary;
-mod tally;
 
 use std::sync::Arc;
 
@@ -20,18 +21,19 @@ pub(super) use self::summary::Summary;
 use self::{
     budget::Budget,
     digest::Recipe,
-    runner::{Outcome, develop_frames},
-    tally::{Display, Tally},
+    outcome::Outcome,
+    progress::{Display, JobProgress},
+    runner::develop_frames,
 };
 use super::exposure::Exposure;
 use super::job::Settings;
 use crate::progress::Clock;
-use crate::{Report, whole};
+use crate::{Report, atomic_file};
 
 /// Refuses to expose each frame of a shot by itself.
 ///
 /// # Errors
-/// One sentence.
+/// One sentence that names `--ev` and the way out, if the frames of a numbered shot would each get an exposure of their own.
 pub(super) fn check_exposure(plan: &Plan, exposure: Exposure) -> Result<()> {
     match plan.frames.first() {
         Some(frame) if plan.numbered && exposure == Exposure::Auto => bail!(
@@ -57,26 +59,28 @@ pub(super) fn run(
     let Plan { frames, notes, .. } = plan;
     summary.notes.extend(notes);
     let recipe = clock.time("compile", || Recipe::new(settings))?;
-    whole::remove_leftovers(frames.iter().map(|frame| frame.output.as_path()));
+    atomic_file::remove_leftovers(frames.iter().map(|frame| frame.output.as_path()));
     let at_once = rayon::current_num_threads().min(frames.len());
-    let tally = Arc::new(Tally::new(frames.len()));
+    let progress = Arc::new(JobProgress::new(frames.len()));
     let mut display = Display::new(frames.len());
-    whole::last_words({
-        let (tally, bar) = (Arc::clone(&tally), display.bar.clone());
+    atomic_file::say_when_stopped({
+        let (progress, bar) = (Arc::clone(&progress), display.bar.clone());
         move || {
             bar.finish_and_clear();
-            tally.last_words()
+            progress.when_stopped()
         }
     });
     let outcomes = clock.time("develop", || {
         let budget = Budget::new(memory);
-        develop_frames(settings, &recipe, &frames, &budget, at_once, &tally, |outcome| display.show(&tally, outcome))
+        develop_frames(settings, &recipe, &frames, &budget, at_once, &progress, |outcome| {
+            display.show(&progress, outcome);
+        })
     });
     display.finish();
     let failed = outcomes.iter().filter(|outcome| matches!(outcome, Outcome::Failed(_))).count();
-    let report = summary.report(&settings.process, &frames, &outcomes, &clock);
+    let report = summary.report(&settings.look.process, &frames, &outcomes, &clock);
     if failed > 0 {
-        crate::print(&report)?;
+        crate::finish::print(&report)?;
         bail!("{failed} of {} frames were not developed", frames.len());
     }
     Ok(report)

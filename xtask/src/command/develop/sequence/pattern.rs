@@ -18,7 +18,7 @@ pub(super) struct Pattern {
 pub(super) enum Place {
     /// The number of a frame, with zeros up to so many digits.
     Number { digits: usize },
-    /// Any letters.
+    /// A `*`: any letters, the same in both names.
     Name,
 }
 
@@ -37,15 +37,15 @@ impl Pattern {
     /// so that a name with both has its `#` as they are.
     ///
     /// # Errors
-    /// Where there are several places.
+    /// If several parts of the name differ between pictures.
     pub(super) fn in_path(path: &Path) -> Result<Option<Self>> {
         let Some(name) = path.file_name().and_then(|name| name.to_str()) else { return Ok(None) };
-        let mut places = printf_places(name);
-        if places.is_empty() {
-            places = runs(name, '#').map(|(at, digits)| (at, digits, Place::Number { digits })).collect();
-            places.extend(name.match_indices('*').map(|(at, star)| (at, star.len(), Place::Name)));
+        let mut parts = printf_places(name);
+        if parts.is_empty() {
+            parts = runs(name, '#').map(|(at, digits)| (at, digits, Place::Number { digits })).collect();
+            parts.extend(name.match_indices('*').map(|(at, star)| (at, star.len(), Place::Name)));
         }
-        match places[..] {
+        match parts[..] {
             [] => Ok(None),
             [(at, length, place)] => Ok(Some(Self {
                 folder: path.parent().unwrap_or(Path::new("")).to_owned(),
@@ -54,9 +54,9 @@ impl Pattern {
                 after: name[at + length..].to_owned(),
             })),
             _ => bail!(
-                "{}: has {} places where pictures differ, expected one (#### or %04d for a frame's number, * for a name)",
+                "{}: has {} parts that differ between pictures, expected one (#### or %04d for a frame's number, * for a name)",
                 path.display(),
-                places.len()
+                parts.len()
             ),
         }
     }
@@ -150,7 +150,7 @@ mod tests {
     fn several_places_are_refused() {
         for path in ["####.##.exr", "*.*", "shot*.####.exr", "%04d.%04d.exr"] {
             let message = Pattern::in_path(Path::new(path)).unwrap_err().to_string();
-            assert!(message.starts_with(path) && message.contains("2 places"), "{message}");
+            assert!(message.starts_with(path) && message.contains("2 parts"), "{message}");
         }
     }
 

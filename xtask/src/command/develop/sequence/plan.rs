@@ -239,7 +239,7 @@ mod tests {
             ("a.####.exr", "no/a.####.png", None, "does not exist (it is not made for you)"),
             ("a.####.exr", "a.####.exr", None, "a.0001.exr: would be both read and written"),
             ("a.##.exr", "out/../a.####.exr", Some("1-1000"), "a.1000.exr: would be both read and written"),
-            ("a.####.exr", "a.##.##.png", None, "2 places"),
+            ("a.####.exr", "a.##.##.png", None, "2 parts"),
         ] {
             let message = planned(folder, input, output, frames).unwrap_err().to_string();
             assert!(message.contains(expected) && !message.contains('\n'), "{message}");

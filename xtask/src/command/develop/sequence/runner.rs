@@ -11,38 +11,29 @@ use std::thread;
 use anyhow::Result;
 use indicatif::ProgressBar;
 
-use super::super::job::{Developed, Order, Settings, develop_picture};
-use super::super::same_file;
+use super::super::job::{Order, Settings, develop_picture};
+use super::super::paths::same_file;
 use super::budget::{Budget, needed};
 use super::digest::{Recipe, is_done};
+use super::outcome::Outcome;
 use super::plan::Frame;
-use super::tally::Tally;
-use crate::picture::open;
-
-/// What became of a frame.
-#[derive(Debug)]
-pub(super) enum Outcome {
-    Developed(Developed),
-    /// The output is there and is what would be made.
-    AlreadyDone,
-    /// Why, in one sentence that starts with a path.
-    Failed(String),
-}
+use super::progress::JobProgress;
+use crate::picture_file::open;
 
 /// Develops `frames`, as many at once as `budget` and `at_once` allow; what became of each, in their order. `done` hears
-/// of each as it is finished.
+/// of each as soon as it is known.
 pub(super) fn develop_frames(
     settings: &Settings,
     recipe: &Recipe,
     frames: &[Frame],
     budget: &Budget,
     at_once: usize,
-    tally: &Arc<Tally>,
+    progress: &Arc<JobProgress>,
     mut done: impl FnMut(&Outcome),
 ) -> Vec<Outcome> {
     let next = AtomicUsize::new(0);
     let mut outcomes: Vec<Option<Outcome>> = frames.iter().map(|_| None).collect();
-    let (results, finished) = mpsc::channel();
+    let (results, received) = mpsc::channel();
     thread::scope(|scope| {
         for _ in 0..at_once {
             // Threads of their own, as those of the pool would take up whole frames while they wait for parts of one.
@@ -50,13 +41,13 @@ pub(super) fn develop_frames(
             scope.spawn(move || {
                 while let Some((index, frame)) = take(next, frames) {
                     let outcome = develop_frame(settings, recipe, frame, budget);
-                    tally.add(&outcome);
+                    progress.add(&outcome);
                     let _ = results.send((index, outcome));
                 }
             });
         }
         drop(results);
-        for (index, outcome) in finished {
+        for (index, outcome) in received {
             done(&outcome);
             if let Some(place) = outcomes.get_mut(index) {
                 *place = Some(outcome);

@@ -6,9 +6,9 @@ use std::fmt::Write as _;
 use onelight::Process;
 use serde_json::{Value, json};
 
+use super::outcome::Outcome;
 use super::plan::Frame;
-use super::runner::Outcome;
-use super::tally::rate;
+use super::progress::rate;
 use crate::Report;
 use crate::progress::Clock;
 

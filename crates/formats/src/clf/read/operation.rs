@@ -1,0 +1,92 @@
+use super::content::{Content, content};
+use super::element::Element;
+use super::markup::{Markup, Part};
+use super::parameters::{exponent, log, range};
+use crate::clf::op::Op;
+use crate::error::{Error, TextProblem};
+use crate::node_order::{node_at, place_of};
+use crate::text::quoted;
+use onelight_lut::{Domain, Interpolation, Lut1d, Lut3d};
+
+/// Reads an operation whose start has come, to its end.
+pub(super) fn read(markup: &mut Markup<'_>, start: &Element) -> Result<Op, Error> {
+    check(start).map_err(|problem| markup.fail(start.at(), problem))?;
+    let mut contents = Vec::new();
+    loop {
+        match markup.next_part()? {
+            (_, Part::End) => break,
+            (_, Part::Start(child)) if child.name() == "Description" => markup.skip()?,
+            (at, Part::Start(child)) => {
+                // Six are the most that any operation has.
+                if contents.len() == 6 {
+                    let what = "elements of an operation";
+                    return Err(markup.fail(at, TextProblem::TooMany { what, max: 6 }));
+                }
+                contents.push(content(markup, start, child)?);
+            }
+            (at, part) => return Err(markup.unexpected(at, "content of an operation", &part, "an element")),
+        }
+    }
+    match start.name() {
+        "Range" => range(start, &contents),
+        "Log" => log(start, &contents),
+        "Exponent" => exponent(start, &contents),
+        _ => array(start, contents),
+    }
+    .map_err(|problem| markup.fail(start.at(), problem))
+}
+
+/// Refuses operations that are not read before their content is.
+fn check(start: &Element) -> Result<(), TextProblem> {
+    if !matches!(start.name(), "Matrix" | "Range" | "Log" | "Exponent" | "LUT1D" | "LUT3D") {
+        let [what, expected] = ["operation", "Matrix, Range, Log, Exponent, LUT1D or LUT3D"];
+        return Err(TextProblem::Unexpected { what, found: format!("<{}>", quoted(start.name())), expected });
+    }
+    for depth in ["inBitDepth", "outBitDepth"] {
+        if !matches!(start.required(depth, "32f or 16f")?, "32f" | "16f") {
+            return Err(start.bad(depth, "32f or 16f"));
+        }
+    }
+    for (attribute, value) in [("halfDomain", "false"), ("rawHalfs", "false")] {
+        if start.get(attribute).is_some_and(|found| found != value) {
+            return Err(start.bad(attribute, value));
+        }
+    }
+    Ok(())
+}
+
+fn array(start: &Element, contents: Vec<Content>) -> Result<Op, TextProblem> {
+    let [what, expected] = ["arrays of an operation", "one"];
+    let found = contents.len().to_string();
+    let mut contents = contents.into_iter();
+    match (contents.next(), contents.next()) {
+        (Some(Content::Matrix(rows)), None) => {
+            let offset = rows.map(|[.., offset]| offset);
+            Ok(Op::Matrix { rows: rows.map(|[r, g, b, _]| [r, g, b]), offset })
+        }
+        (Some(Content::Lut1d(entries)), None) => match start.get("interpolation") {
+            None | Some("linear") => Lut1d::new(Domain::UNIT, entries).map(Op::Lut1d).map_err(TextProblem::Table),
+            Some(_) => Err(start.bad("interpolation", "linear")),
+        },
+        (Some(Content::Lut3d(size, entries)), None) => {
+            let interpolation = match start.get("interpolation") {
+                None | Some("trilinear") => Interpolation::Trilinear,
+                Some("tetrahedral") => Interpolation::Tetrahedral,
+                Some(_) => return Err(start.bad("interpolation", "trilinear or tetrahedral")),
+            };
+            let lut = Lut3d::new(size, red_fastest(size, &entries)).map_err(TextProblem::Table)?;
+            Ok(Op::Lut3d(lut, interpolation))
+        }
+        _ => Err(TextProblem::Unexpected { what, found, expected }),
+    }
+}
+
+/// The entries of an array, which has blue fastest, as a table has them.
+fn red_fastest(size: usize, entries: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    (0..entries.len())
+        .map(|index| {
+            let [red, green, blue] = node_at(index, size);
+            entries[place_of([blue, green, red], size)]
+        })
+        .collect()
+}

@@ -1,0 +1,44 @@
+//! Hald CLUTs.
+
+use onelight_formats::{PngDepth, hald};
+use onelight_lut::Lut3d;
+
+use crate::tables::{bent, damage, decoded, nearest_code};
+
+#[test]
+fn tables_come_back_to_half_a_code() {
+    for depth in [PngDepth::Eight, PngDepth::Sixteen] {
+        for size in [4, 9, 25] {
+            let table = bent(size);
+            let mut file = Vec::new();
+            hald::write(&mut file, &table, depth, ["max dE 0.3", "\u{3b4}"]).unwrap();
+            let back = hald::read(file.as_slice()).unwrap();
+            assert_eq!(back.entries().collect::<Vec<_>>(), nearest_code(&table, depth));
+            // Codes are fixed points.
+            let mut again = Vec::new();
+            hald::write(&mut again, &back, depth, ["max dE 0.3", "\u{3b4}"]).unwrap();
+            assert_eq!(again, file);
+        }
+    }
+}
+
+#[test]
+fn red_runs_along_the_first_row() {
+    let mut file = Vec::new();
+    hald::write(&mut file, &Lut3d::identity(4).unwrap(), PngDepth::Eight, [""; 0]).unwrap();
+    let (size, pixels) = decoded(&file);
+    assert_eq!(size, [8, 8]);
+    let third = 85.0 / 255.0;
+    assert_eq!(pixels[1], [third, 0.0, 0.0]);
+    assert_eq!(pixels[4], [0.0, third, 0.0]);
+    assert_eq!(pixels[2 * 8], [0.0, 0.0, third]);
+}
+
+#[test]
+fn other_sizes_and_damage_are_refused() {
+    let found = hald::write(Vec::new(), &Lut3d::identity(33).unwrap(), PngDepth::Eight, [""; 0]).unwrap_err();
+    assert!(found.to_string().contains("found 33, expected the square of a level"), "{found}");
+    let mut file = Vec::new();
+    hald::write(&mut file, &bent(4), PngDepth::Sixteen, [""; 0]).unwrap();
+    damage(&file, |bytes| hald::read(bytes));
+}

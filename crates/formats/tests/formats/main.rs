@@ -1,0 +1,12 @@
+//! Every file against its own laws, against independent readers, and cut and changed until it must be refused.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
+
+mod clf;
+mod corpus;
+mod cube;
+mod direct_json;
+mod hald;
+mod ktx2;
+mod spi3d;
+mod strip;
+mod tables;

@@ -1,0 +1,118 @@
+//! Codings that a table takes instead of scene-linear light: those of cameras, displays and engines.
+
+use nalgebra::Matrix3;
+use onelight_lut::Lut3d;
+use onelight_spectra::{Chromaticity, RgbSpace, SceneCurve};
+
+use crate::error::Error;
+use crate::look::Look;
+use crate::process::ColourSpaces;
+use crate::scene::{MID_GREY, multiply};
+
+/// A coding of light that a table takes as its coordinates.
+///
+/// ```
+/// use onelight::Process;
+/// use onelight::baked::{BakedForm, Recipe, ShaperChoice};
+/// let recipe = Recipe { shaper: ShaperChoice::Acescct, ..Recipe::cube(9) };
+/// let baked = Process::default().look()?.baked(&recipe)?;
+/// let BakedForm::Coded { coordinate, .. } = baked.form() else { return Ok(()) };
+/// assert!((coordinate.encode([0.18; 3])[0] - 0.4136).abs() < 1e-4);
+/// # Ok::<(), onelight::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Coordinate {
+    name: &'static str,
+    curve: CodingCurve,
+    /// From the look's input primaries to those of the coding, and back.
+    there: Matrix3<f64>,
+    back: Matrix3<f64>,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum CodingCurve {
+    Scene(SceneCurve),
+    /// log2 of light over mid grey, between two stops.
+    Stops(f64, f64),
+}
+
+/// The range of Bevy's tone-mapping tables, in stops about mid grey.
+const BEVY_STOPS: (f64, f64) = (-11.0, 12.0);
+
+impl Coordinate {
+    /// A published coding, with its own primaries.
+    pub(super) fn of_curve(curve: SceneCurve, spaces: &ColourSpaces) -> Result<Self, Error> {
+        Self::new(curve.name(), CodingCurve::Scene(curve), &curve.space(), spaces)
+    }
+
+    /// The coordinate of Bevy's tone-mapping tables, in the look's input primaries.
+    pub(super) fn bevy(spaces: &ColourSpaces) -> Result<Self, Error> {
+        Self::new(
+            "log2(x / 0.18) from -11 to +12",
+            CodingCurve::Stops(BEVY_STOPS.0, BEVY_STOPS.1),
+            &spaces.input_space.space(),
+            spaces,
+        )
+    }
+
+    fn new(name: &'static str, curve: CodingCurve, space: &RgbSpace, spaces: &ColourSpaces) -> Result<Self, Error> {
+        let (input, white) = (spaces.input_space.space(), Chromaticity::black_body_6500_k());
+        Ok(Self { name, curve, there: input.to_about(space, white)?, back: space.to_about(&input, white)? })
+    }
+
+    /// Scene-linear RGB of the look's input space at coordinates.
+    fn decode(&self, coordinates: [f64; 3]) -> [f64; 3] {
+        let linear = coordinates.map(|v| match self.curve {
+            CodingCurve::Scene(curve) => curve.decode(v),
+            CodingCurve::Stops(low, high) => MID_GREY * (low + v * (high - low)).exp2(),
+        });
+        multiply(&self.back, linear)
+    }
+
+    /// The coding's name for people, such as `ACEScct`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// Coordinates of scene-linear RGB of the look's input space; not clamped, finite for finite light.
+    #[must_use]
+    pub fn encode(&self, linear: [f64; 3]) -> [f64; 3] {
+        multiply(&self.there, linear).map(|v| match self.curve {
+            CodingCurve::Scene(curve) => curve.encode(v),
+            CodingCurve::Stops(low, high) => ((v.max(1e-12) / MID_GREY).log2() - low) / (high - low),
+        })
+    }
+
+    /// The table of a look in this coding.
+    pub(super) fn bake(&self, look: &Look, size: usize) -> Result<Lut3d, Error> {
+        look.bake(size, |t| self.decode(t))
+    }
+
+    /// The brightest grey that the coding holds.
+    #[must_use]
+    pub fn max(&self) -> f64 {
+        self.decode([1.0; 3]).into_iter().fold(0.0, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codings_go_there_and_back() {
+        let spaces = ColourSpaces { input_space: crate::WorkingSpace::AcesCg, ..Default::default() };
+        let mut all: Vec<Coordinate> =
+            SceneCurve::ALL.iter().map(|curve| Coordinate::of_curve(*curve, &spaces).unwrap()).collect();
+        all.push(Coordinate::bevy(&spaces).unwrap());
+        for coordinate in all {
+            for rgb in [[0.18; 3], [0.5, 0.2, 0.1], [0.02, 0.05, 0.04]] {
+                let back = coordinate.decode(coordinate.encode(rgb));
+                for c in 0..3 {
+                    assert!((back[c] - rgb[c]).abs() < 1e-9, "{}: {back:?} for {rgb:?}", coordinate.name);
+                }
+            }
+        }
+    }
+}

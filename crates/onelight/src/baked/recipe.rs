@@ -1,0 +1,143 @@
+use onelight_lut::Storage;
+use onelight_spectra::SceneCurve;
+
+use super::coordinate::Coordinate;
+use crate::direct::{DirectSettings, Nodes};
+use crate::error::Error;
+use crate::process::ColourSpaces;
+use crate::structured::{Entries, TableCoding};
+use crate::word::words;
+
+/// The forms that a look can be baked to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Form {
+    /// A log2 shaper and one table: every program reads it; the scene's range is limited. The only form of a look without film
+    /// curves.
+    #[default]
+    Plain,
+    /// The film's own curves as axes of the table: any range, several times as accurate.
+    Structured,
+    /// No table: the film's curves and a few exponentials; any range, most accurate.
+    Direct,
+}
+
+/// How scene light becomes a coordinate of a plain table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum ShaperChoice {
+    /// log2 with offset and range fitted to the look.
+    #[default]
+    Log2,
+    /// That of \[Gotanda2010\]: log2(u + 0.191406), 0 to 4.
+    Gotanda,
+    /// The table takes ACEScct (AP1 primaries) instead of scene light.
+    Acescct,
+    /// It takes ARRI LogC4 (ARRI Wide Gamut 4).
+    Logc4,
+    /// It takes Sony S-Log3 (S-Gamut3.Cine).
+    Slog3,
+    /// It takes DaVinci Intermediate (DaVinci Wide Gamut).
+    Intermediate,
+    /// It takes PQ (BT.2020), scene 1.0 at 100 cd/m^2.
+    Pq,
+    /// It takes sRGB-coded colour: nothing brighter than white.
+    Srgb,
+    /// It takes log2(x / 0.18) from -11 to +12: Bevy's tone-mapping tables, with linear output.
+    Bevy,
+}
+
+words! {
+    Form, "form":
+        Form::Plain = "plain" "A log2 shaper and one table: every program reads it; the scene's range is limited",
+        Form::Structured = "structured" "The film's own curves as axes of the table: any range, several times as accurate",
+        Form::Direct = "direct" "No table: the film's curves and a few exponentials; any range, most accurate";
+    ShaperChoice, "shaper":
+        ShaperChoice::Log2 = "log2" "log2 with offset and range fitted to the look",
+        ShaperChoice::Gotanda = "gotanda" "The talk's: log2(u + 0.191406), 0 to 4",
+        ShaperChoice::Acescct = "acescct" "The table takes ACEScct (AP1 primaries) instead of scene light",
+        ShaperChoice::Logc4 = "logc4" "It takes ARRI LogC4 (ARRI Wide Gamut 4)",
+        ShaperChoice::Slog3 = "slog3" "It takes Sony S-Log3 (S-Gamut3.Cine)",
+        ShaperChoice::Intermediate = "intermediate" "It takes DaVinci Intermediate (DaVinci Wide Gamut)",
+        ShaperChoice::Pq = "pq" "It takes PQ (BT.2020), scene 1.0 at 100 cd/m^2",
+        ShaperChoice::Srgb = "srgb" "It takes sRGB-coded colour: nothing brighter than white",
+        ShaperChoice::Bevy = "bevy" "It takes log2(x / 0.18) from -11 to +12: Bevy's tone-mapping tables, with linear output";
+}
+
+impl ShaperChoice {
+    /// Whether the table takes a coding of light instead of scene-linear light: what pictures of tables, which hold no shaper,
+    /// need.
+    #[must_use]
+    pub fn is_coding(self) -> bool {
+        !matches!(self, Self::Log2 | Self::Gotanda)
+    }
+
+    /// The coding that a table takes instead of scene-linear light.
+    pub(super) fn coordinate(self, spaces: &ColourSpaces) -> Result<Option<Coordinate>, Error> {
+        let curve = match self {
+            Self::Log2 | Self::Gotanda => return Ok(None),
+            Self::Bevy => return Coordinate::bevy(spaces).map(Some),
+            Self::Acescct => SceneCurve::AcesCct,
+            Self::Logc4 => SceneCurve::LogC4,
+            Self::Slog3 => SceneCurve::SLog3,
+            Self::Intermediate => SceneCurve::DaVinciIntermediate,
+            Self::Pq => SceneCurve::Pq,
+            Self::Srgb => SceneCurve::Srgb,
+        };
+        Coordinate::of_curve(curve, spaces).map(Some)
+    }
+}
+
+/// Everything that decides what a look is baked to.
+///
+/// ```
+/// use onelight::baked::{Form, Recipe};
+/// use onelight::lut::Storage;
+/// let half = Recipe { storage: Storage::F16, ..Recipe::of(Form::Structured) };
+/// assert_eq!(half.size, 32);
+/// assert_eq!(Recipe::cube(17).form, Form::Plain);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Recipe {
+    /// What is made: a table, a table with curves, or curves and exponentials.
+    pub form: Form,
+    /// Nodes along each side of the table, 2 to [`onelight_lut::Lut3d::MAX_SIZE`]; the direct form has none.
+    pub size: usize,
+    /// How scene light becomes a coordinate of a plain table.
+    pub shaper: ShaperChoice,
+    /// Where the range of a plain table ends, in stops about mid grey; `None` fits it.
+    pub stops: Option<f64>,
+    /// Where the entries come from.
+    pub entries: Entries,
+    /// How the entries are stored; what is applied and certified is what was stored.
+    pub storage: Storage,
+    /// What the entries of a structured table are.
+    pub coding: TableCoding,
+    /// The exponentials of a direct form.
+    pub nodes: Nodes,
+}
+
+impl Default for Recipe {
+    fn default() -> Self {
+        Self::of(Form::default())
+    }
+}
+
+impl Recipe {
+    /// The usual recipe of a form: 33 nodes plain, 32 structured, 10 + 5 exponentials direct.
+    #[must_use]
+    pub fn of(form: Form) -> Self {
+        let (size, entries) = match form {
+            Form::Plain => (33, Entries::Sampled),
+            Form::Structured => (32, Entries::Fitted),
+            Form::Direct => (0, Entries::Fitted),
+        };
+        let (storage, coding) = (Storage::F32, TableCoding::Density);
+        let nodes = DirectSettings::default().nodes;
+        Self { form, size, shaper: ShaperChoice::Log2, stops: None, entries, storage, coding, nodes }
+    }
+
+    /// A table of this size behind a log2 shaper fitted to the look: what a `.cube` file holds.
+    #[must_use]
+    pub fn cube(size: usize) -> Self {
+        Self { size, ..Self::of(Form::Plain) }
+    }
+}

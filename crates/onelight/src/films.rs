@@ -1,0 +1,114 @@
+use onelight_film::{Stock, StockKind};
+
+use crate::error::{Error, Kind};
+use crate::process::{FilmProcess, FirstProcess, Process, StockRef};
+use crate::stocks::stock;
+
+/// The film in the camera and the one it is printed on, as [`Process::compile_with`] takes them: built in or read from sheets
+/// of one's own.
+///
+/// ```
+/// use onelight::{Films, Process, stock};
+/// let films = Films { camera: stock("kodak-5219")?, print: Some(stock("kodak-2393")?) };
+/// let film = Process::default().compile_with(&films)?;
+/// assert_eq!(film.name(), "kodak-5219_kodak-2393");
+/// # Ok::<(), onelight::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Films {
+    /// A negative or a reversal film.
+    pub camera: Stock,
+    /// The print film of a negative; `None` for reversal film.
+    pub print: Option<Stock>,
+}
+
+impl Films {
+    /// The built-in films that a description names, checked as [`Films::check`] does.
+    pub(crate) fn built_in(camera: &StockRef, print: Option<&StockRef>) -> Result<Self, Error> {
+        let films = Self { camera: built_in(camera)?, print: print.map(built_in).transpose()? };
+        films.check()?;
+        Ok(films)
+    }
+
+    pub(crate) fn of_film(process: &FilmProcess) -> Result<Self, Error> {
+        Self::built_in(&process.camera, process.print.as_ref().map(|print| &print.film))
+    }
+
+    pub(crate) fn of_first(process: &FirstProcess) -> Result<Self, Error> {
+        Self::built_in(&process.camera, process.print.as_ref())
+    }
+
+    /// Whether the films fit together.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let camera = self.camera.id();
+        match (self.camera.kind(), self.print.as_ref().map(|p| (p.kind(), p.id()))) {
+            (StockKind::Print, _) => Err(Error::print_film_in_camera(camera)),
+            (StockKind::Negative, None) => {
+                refuse(format!("{camera} is a negative, expected a print film to see it on, such as kodak-2383"))
+            }
+            (StockKind::Reversal, Some((_, print))) => refuse(format!(
+                "{camera} is a reversal film and is shown as it is, expected no print film instead of {print}"
+            )),
+            (StockKind::Negative, Some((StockKind::Negative | StockKind::Reversal, print))) => {
+                refuse(format!("{print} is a camera film, expected a print film, such as kodak-2383"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether a description prints where these films are printed.
+    pub(crate) fn check_for(&self, printed: bool) -> Result<(), Error> {
+        self.check()?;
+        let camera = self.camera.id();
+        match (&self.print, printed) {
+            (Some(print), false) => refuse(format!(
+                "{camera} is printed on {}, but the process has no printing, expected its print to be set",
+                print.id()
+            )),
+            (None, true) => refuse(format!(
+                "{camera} is a reversal film and is not printed, but the process has a printing, expected its print to be None"
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// The description with these films in it: built-in ones by name where it named others.
+    pub(crate) fn named_in(&self, process: &Process) -> Process {
+        let mut process = process.clone();
+        let set = |place: &mut StockRef, stock: &Stock| {
+            if place.id() != stock.id() {
+                *place = stock.id().into();
+            }
+        };
+        match &mut process {
+            Process::Film(film) => {
+                set(&mut film.camera, &self.camera);
+                if let Some((place, stock)) = film.print.as_mut().zip(self.print.as_ref()) {
+                    set(&mut place.film, stock);
+                }
+            }
+            Process::First(first) => {
+                set(&mut first.camera, &self.camera);
+                if let Some((place, stock)) = first.print.as_mut().zip(self.print.as_ref()) {
+                    set(place, stock);
+                }
+            }
+            Process::Tone(_) => {}
+        }
+        process
+    }
+}
+
+fn built_in(film: &StockRef) -> Result<Stock, Error> {
+    match film {
+        StockRef::BuiltIn(id) => stock(id),
+        StockRef::Own(sheet) => refuse(format!(
+            "{} is a data sheet of one's own ({}), expected its stock beside the process, as in compile_with",
+            sheet.id, sheet.path
+        )),
+    }
+}
+
+fn refuse<T>(sentence: String) -> Result<T, Error> {
+    Err(Kind::Contradiction(sentence).into())
+}

@@ -1,0 +1,183 @@
+use onelight_film::{DyeModel, Matching, PerLayer, Tail};
+use onelight_printing::{
+    Aim, Calibration, EquivalentNeutralDensity, Filters, HeatGlass, Infrared, NEUTRAL_DENSITY, Printer, PrinterLight,
+    Projector, Wratten,
+};
+use onelight_spectra::Reconstruction;
+
+use super::spaces::ColourSpaces;
+use super::stock_ref::{DEFAULT_CAMERA, DEFAULT_PRINT, StockRef, default_print};
+use crate::error::{Error, Kind};
+
+/// The simulation of film, second approach of \[Gotanda2010\]: films, lights, and the RGB at both ends.
+///
+/// ```
+/// use onelight::{Aim, FilmProcess, Printing};
+/// let film = FilmProcess { aim: Aim::Sheet, ..FilmProcess::for_camera("kodak-portra-400")? };
+/// assert!(film.compile()?.develop_linear([0.18; 3])[1] < 0.15);
+///
+/// // One point more of red light in the printer.
+/// let print = Printing { points: [1.0, 0.0, 0.0], ..Default::default() };
+/// let cyan = FilmProcess { print: Some(print), ..Default::default() }.compile()?;
+/// assert!(cyan.develop([0.18; 3])[0] < cyan.develop([0.18; 3])[1]);
+/// # Ok::<(), onelight::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct FilmProcess {
+    /// The film in the camera: a negative or a reversal film.
+    pub camera: StockRef,
+    /// How a negative is printed; `None` for reversal film, which is shown as it is.
+    pub print: Option<Printing>,
+    /// What an 18 % grey card becomes.
+    pub aim: Aim,
+    /// Equivalent neutral density of a grey card in neutral aim, 0.05 to 3. 0.3 more is a stop darker.
+    pub neutral_density: f64,
+    /// Stops that the camera film is exposed over its normal exposure, -10 to 10. The printer is set for the grey card so
+    /// exposed, as a lab does: grey stays, shadows and highlights move along the film's curves. Reversal film has no print to
+    /// correct it: the picture is brighter.
+    pub overexposure: f64,
+    /// How densities become amounts of dye.
+    pub dyes: DyeModel,
+    /// How exposures meet the characteristic curves.
+    pub matching: Matching,
+    /// How a spectrum is made for an RGB value.
+    pub reconstruction: Reconstruction,
+    /// The light that the film is seen by.
+    pub projector: Projector,
+    /// The RGB that comes in and goes out.
+    pub spaces: ColourSpaces,
+}
+
+/// How a negative is printed: the film behind it, and the printer. Reversal film has none of it.
+///
+/// ```
+/// use onelight::{PrinterLight, Printing};
+/// let white = Printing { light: PrinterLight::White, ..Printing::on("kodak-2393") };
+/// assert_eq!(white.film.id(), "kodak-2393");
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Printing {
+    /// The print film: a stock of kind print.
+    pub film: StockRef,
+    /// Three separated beams in the printer, or a white one.
+    pub light: PrinterLight,
+    /// The gelatin filters in the printer.
+    pub filters: Filters,
+    /// Neutral density in the printer's red, green and blue beam, 0 to 4.
+    pub beam_density: [f64; 3],
+    /// How the printer's lights are found.
+    pub calibration: Calibration,
+    /// Printer points by which red, green and blue light are moved once they are found, -50 to 50
+    /// ([`onelight_printing::POINT_LOG_EXPOSURE`] each): the lab's colour correction.
+    pub points: [f64; 3],
+    /// Whether infrared takes part in printing.
+    pub infrared: Infrared,
+    /// The heat glass of the printer.
+    pub glass: HeatGlass,
+    /// How the print's red layer goes on beyond its sheet.
+    pub red_tail: Tail,
+}
+
+impl Default for Printing {
+    fn default() -> Self {
+        Self::on(DEFAULT_PRINT)
+    }
+}
+
+impl Default for FilmProcess {
+    fn default() -> Self {
+        Self {
+            camera: DEFAULT_CAMERA.into(),
+            print: Some(Printing::default()),
+            aim: Aim::default(),
+            neutral_density: NEUTRAL_DENSITY,
+            overexposure: 0.0,
+            dyes: DyeModel::default(),
+            matching: Matching::default(),
+            reconstruction: Reconstruction::default(),
+            projector: Projector::default(),
+            spaces: ColourSpaces::default(),
+        }
+    }
+}
+
+impl FilmProcess {
+    /// The usual process for a built-in camera film: negatives on [`DEFAULT_PRINT`], reversal film as it is.
+    ///
+    /// # Errors
+    /// If no stock has this id, or it is a print film.
+    pub fn for_camera(camera: &str) -> Result<Self, Error> {
+        Ok(Self { camera: camera.into(), print: default_print(camera)?.map(Printing::on), ..Self::default() })
+    }
+
+    /// Whether the numbers are within their ranges, and every setting changes something.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        check_exposure(self.neutral_density, self.overexposure)?;
+        if let Some(print) = &self.print {
+            check_lights(&print.beam_density, &print.points)?;
+        }
+        if self.aim == Aim::Sheet && self.neutral_density != NEUTRAL_DENSITY {
+            return Err(Kind::Contradiction(
+                "aim sheet takes its density from the sheet: neutral_density changes nothing, expected aim neutral"
+                    .to_owned(),
+            )
+            .into());
+        }
+        self.print.as_ref().map_or(Ok(()), Printing::check)
+    }
+}
+
+impl Printing {
+    /// The usual printing on a built-in film.
+    #[must_use]
+    pub fn on(film: &str) -> Self {
+        Self {
+            film: film.into(),
+            light: PrinterLight::default(),
+            filters: Filters::default(),
+            beam_density: Printer::default().beam_density.to_array(),
+            calibration: Calibration::default(),
+            points: [0.0; 3],
+            infrared: Infrared::default(),
+            glass: HeatGlass::default(),
+            red_tail: Tail::default(),
+        }
+    }
+
+    /// The printer's settings by themselves.
+    #[must_use]
+    pub fn printer(&self) -> Printer {
+        Printer {
+            light: self.light,
+            filters: self.filters,
+            beam_density: PerLayer::from(self.beam_density),
+            infrared: self.infrared,
+            glass: self.glass,
+            red_tail: self.red_tail,
+        }
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        let separations = [Wratten::No70, Wratten::No99, Wratten::No98];
+        if self.light == PrinterLight::White && !separations.iter().all(|filter| self.filters.contains(*filter)) {
+            return Err(Kind::Contradiction("light white has no separation filters: taking them out changes nothing, expected filters with 70, 99 and 98 or light separations".to_owned()).into());
+        }
+        Ok(())
+    }
+}
+
+/// Whether density of grey and overexposure are within their ranges.
+pub(crate) fn check_exposure(neutral_density: f64, overexposure: f64) -> Result<(), Error> {
+    EquivalentNeutralDensity::new(neutral_density)?;
+    within("overexposure", overexposure, -10.0, 10.0)
+}
+
+/// Whether densities of beams and printer points are within their ranges.
+pub(crate) fn check_lights(beam_density: &[f64; 3], points: &[f64; 3]) -> Result<(), Error> {
+    beam_density.iter().try_for_each(|v| within("beam_density", *v, 0.0, 4.0))?;
+    points.iter().try_for_each(|v| within("points", *v, -50.0, 50.0))
+}
+
+fn within(what: &str, found: f64, low: f64, high: f64) -> Result<(), Error> {
+    if (low..=high).contains(&found) { Ok(()) } else { Err(Error::setting(what, found, low, high)) }
+}

@@ -1,0 +1,254 @@
+//! From keys to one kind of process, and back.
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+
+use super::keys::ProcessKeys;
+use crate::error::{Error, Kind};
+use crate::films::Films;
+use crate::process::{
+    Approach, ColourSpaces, FilmProcess, FirstProcess, OwnSheet, Printing, Process, StockRef, ToneMapping, ToneProcess,
+    check_exposure, check_lights,
+};
+use crate::word::Word as _;
+
+impl ProcessKeys {
+    /// The process that the keys describe.
+    ///
+    /// # Errors
+    /// If a stock is unknown or a sheet of one's own, the films do not fit together, a number is out of its range, or a key
+    /// changes nothing.
+    pub fn process(&self) -> Result<Process, Error> {
+        let process = self.unchecked()?;
+        match &process {
+            Process::Film(_) | Process::First(_) => {
+                let (camera, print) = self.stocks()?;
+                Films::built_in(&camera, print.as_ref())?;
+            }
+            Process::Tone(_) => {}
+        }
+        self.check()?;
+        Ok(process)
+    }
+
+    /// The process that the keys describe, with these stocks where they name sheets of one's own.
+    ///
+    /// # Errors
+    /// As [`ProcessKeys::process`], but for sheets of one's own; a tone mapping takes no films.
+    pub fn process_with(&self, films: &Films) -> Result<Process, Error> {
+        let process = self.unchecked()?;
+        if let Process::Tone(tone) = &process {
+            return Err(no_films(tone.mapping.approach()));
+        }
+        films.check()?;
+        self.check()?;
+        Ok(films.named_in(&process))
+    }
+
+    fn unchecked(&self) -> Result<Process, Error> {
+        let spaces = ColourSpaces {
+            input_space: self.input_space,
+            output_space: self.output_space,
+            output_coding: self.output_coding,
+        };
+        let mapping = match self.approach {
+            Approach::Second => return self.film(spaces).map(Process::Film),
+            Approach::First => {
+                let (camera, print) = self.stocks()?;
+                let (neutral_density, controls) = (self.neutral_density, self.first.clone());
+                return Ok(Process::First(FirstProcess { camera, print, neutral_density, controls, spaces }));
+            }
+            Approach::Reinhard => ToneMapping::Reinhard,
+            Approach::ReinhardLuminance => ToneMapping::ReinhardLuminance,
+            Approach::Clip => ToneMapping::Clip,
+        };
+        Ok(Process::Tone(ToneProcess { mapping, spaces }))
+    }
+
+    fn film(&self, spaces: ColourSpaces) -> Result<FilmProcess, Error> {
+        let (camera, print) = self.stocks()?;
+        let print = print.map(|film| Printing {
+            film,
+            light: self.light,
+            filters: self.filters,
+            beam_density: self.beam_density,
+            calibration: self.calibration,
+            points: self.points,
+            infrared: self.infrared,
+            glass: self.glass,
+            red_tail: self.red_tail,
+        });
+        Ok(FilmProcess {
+            camera,
+            print,
+            aim: self.aim,
+            neutral_density: self.neutral_density,
+            overexposure: self.overexposure,
+            dyes: self.dyes,
+            matching: self.matching,
+            reconstruction: self.reconstruction,
+            projector: self.projector,
+            spaces,
+        })
+    }
+
+    fn stocks(&self) -> Result<(StockRef, Option<StockRef>), Error> {
+        let camera = stock_ref("camera", &self.camera, self.camera_sheet.as_deref(), self.camera_sha256.as_deref())?;
+        let (path, sha256) = (self.print_sheet.as_deref(), self.print_sha256.as_deref());
+        match &self.print {
+            Some(print) => Ok((camera, Some(stock_ref("print", print, path, sha256)?))),
+            None if path.or(sha256).is_some() => {
+                let sentence = "print is none: print_sheet and print_sha256 change nothing, expected them left out";
+                Err(Kind::Contradiction(sentence.to_owned()).into())
+            }
+            None => Ok((camera, None)),
+        }
+    }
+
+    /// Whether the numbers of a film are within their ranges, and every key that was changed changes something.
+    fn check(&self) -> Result<(), Error> {
+        if matches!(self.approach, Approach::Second | Approach::First) {
+            check_exposure(self.neutral_density, self.overexposure)?;
+            check_lights(&self.beam_density, &self.points)?;
+        }
+        let refuse = |sentence: String| Err(Kind::Contradiction(sentence).into());
+        let (idle, why) = self.idle_keys();
+        // The first approach's controls are named before the film's kind is blamed for them.
+        if idle.contains(&"first") {
+            return refuse(
+                "first holds the controls of approach first, expected it left out or approach first".to_owned(),
+            );
+        }
+        if let Some(key) = idle.first() {
+            return refuse(format!("{why}: {key} changes nothing, expected it left out"));
+        }
+        match self.unchecked()? {
+            Process::Film(film) => film.check(),
+            Process::First(first) => first.check(),
+            Process::Tone(_) => Ok(()),
+        }
+    }
+
+    /// The keys that were changed and change nothing, and why they do not.
+    fn idle_keys(&self) -> (Vec<&'static str>, String) {
+        let usual = Self::default();
+        let printer = [
+            ("light", self.light != usual.light),
+            ("filters", self.filters != usual.filters),
+            ("beam_density", self.beam_density != usual.beam_density),
+            ("calibration", self.calibration != usual.calibration),
+            ("points", self.points != usual.points),
+            ("infrared", self.infrared != usual.infrared),
+            ("glass", self.glass != usual.glass),
+            ("red_tail", self.red_tail != usual.red_tail),
+        ];
+        let film = [
+            ("aim", self.aim != usual.aim),
+            ("overexposure", self.overexposure != usual.overexposure),
+            ("dyes", self.dyes != usual.dyes),
+            ("matching", self.matching != usual.matching),
+            ("reconstruction", self.reconstruction != usual.reconstruction),
+            ("projector", self.projector != usual.projector),
+        ];
+        let density = [("neutral_density", self.neutral_density != usual.neutral_density)];
+        let first = [("first", self.first != usual.first)];
+        let (idle, why): (Vec<(&'static str, bool)>, String) = match self.approach {
+            Approach::Second if self.print.is_none() => {
+                let idle = printer.into_iter().chain(first).collect();
+                (idle, format!("{} is a reversal film and is not printed", self.camera))
+            }
+            Approach::Second => (first.to_vec(), "approach second has no controls by hand".to_owned()),
+            Approach::First => {
+                let idle = film.into_iter().chain(printer).collect();
+                (idle, "approach first knows no spectra, dyes or printer".to_owned())
+            }
+            tone => {
+                let idle = film.into_iter().chain(printer).chain(density).chain(first).collect();
+                (idle, format!("approach {} knows no film", tone.word()))
+            }
+        };
+        (idle.into_iter().filter(|(_, changed)| *changed).map(|(key, _)| key).collect(), why)
+    }
+}
+
+/// The sentence for films beside a process that has none.
+pub(crate) fn no_films(approach: Approach) -> Error {
+    let sentence = format!("approach {} knows no film: films beside it change nothing, expected none", approach.word());
+    Kind::Contradiction(sentence).into()
+}
+
+fn stock_ref(key: &str, id: &str, path: Option<&str>, sha256: Option<&str>) -> Result<StockRef, Error> {
+    let (path, sha256) = match (path, sha256) {
+        (None, None) => return Ok(id.into()),
+        (Some(path), Some(sha256)) => (path.to_owned(), sha256.to_owned()),
+        (Some(_), None) => {
+            return Err(Kind::Contradiction(format!(
+                "{key}_sheet names a data sheet without its digest, expected {key}_sha256 beside it"
+            ))
+            .into());
+        }
+        (None, Some(_)) => {
+            return Err(Kind::Contradiction(format!(
+                "{key}_sha256 is the digest of no data sheet, expected {key}_sheet beside it"
+            ))
+            .into());
+        }
+    };
+    Ok(StockRef::Own(OwnSheet { id: id.to_owned(), path, sha256 }))
+}
+
+impl From<&Process> for ProcessKeys {
+    fn from(process: &Process) -> Self {
+        let spaces = process.spaces();
+        let mut keys = Self {
+            approach: process.approach(),
+            input_space: spaces.input_space,
+            output_space: spaces.output_space,
+            output_coding: spaces.output_coding,
+            ..Self::default()
+        };
+        if let Some(camera) = process.camera() {
+            camera.id().clone_into(&mut keys.camera);
+            (keys.camera_sheet, keys.camera_sha256) = sheet_of(camera);
+            keys.print = process.print().map(|print| print.id().to_owned());
+            (keys.print_sheet, keys.print_sha256) = process.print().map_or((None, None), sheet_of);
+        }
+        match process {
+            Process::Film(film) => keys.take_film(film),
+            Process::First(first) => {
+                (keys.neutral_density, keys.first) = (first.neutral_density, first.controls.clone());
+            }
+            Process::Tone(_) => {}
+        }
+        keys
+    }
+}
+
+impl ProcessKeys {
+    fn take_film(&mut self, film: &FilmProcess) {
+        (self.aim, self.neutral_density, self.overexposure) = (film.aim, film.neutral_density, film.overexposure);
+        (self.dyes, self.matching) = (film.dyes, film.matching);
+        (self.reconstruction, self.projector) = (film.reconstruction, film.projector);
+        if let Some(print) = &film.print {
+            (self.light, self.filters, self.beam_density) = (print.light, print.filters, print.beam_density);
+            (self.calibration, self.points) = (print.calibration, print.points);
+            (self.infrared, self.glass, self.red_tail) = (print.infrared, print.glass, print.red_tail);
+        }
+    }
+}
+
+fn sheet_of(film: &StockRef) -> (Option<String>, Option<String>) {
+    film.own_sheet().map_or((None, None), |sheet| (Some(sheet.path.clone()), Some(sheet.sha256.clone())))
+}
+
+/// As the keys of `look.toml`.
+impl Serialize for Process {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        ProcessKeys::from(self).serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Process {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        ProcessKeys::deserialize(deserializer)?.process().map_err(de::Error::custom)
+    }
+}

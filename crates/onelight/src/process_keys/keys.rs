@@ -1,0 +1,184 @@
+use onelight_film::{DyeModel, Matching, Tail};
+use onelight_printing::{
+    Aim, Calibration, Filters, HeatGlass, Infrared, NEUTRAL_DENSITY, Printer, PrinterLight, Projector,
+};
+use onelight_spectra::{Reconstruction, TransferCurve};
+use serde::{Deserialize, Serialize};
+
+use super::version::FormatVersion;
+use super::word_lists::{self, parse_calibration, parse_print};
+use crate::error::Error;
+use crate::process::{Approach, DEFAULT_CAMERA, DEFAULT_PRINT, FirstControls};
+use crate::word::{self, WorkingSpace};
+
+/// Every key of `look.toml` with its value: what a file says and a command line changes before it is one kind of [`Process`].
+///
+/// Here a key may stand beside others that make it mean nothing, such as the filters of a printer beside a reversal film;
+/// [`ProcessKeys::process`] refuses that. In Rust, [`FilmProcess`](crate::FilmProcess) and its like are the shorter way.
+///
+/// ```
+/// use onelight::{Aim, ProcessKeys};
+/// let mut keys = ProcessKeys::from_toml("look.toml", "version = 1\ncamera = \"fuji-velvia-50\"\n")?;
+/// keys.aim = Aim::Sheet;
+/// assert_eq!(keys.process()?.name(), "fuji-velvia-50");
+/// keys.points = [1.0, 0.0, 0.0];
+/// assert!(keys.process().unwrap_err().to_string().contains("points changes nothing"));
+/// # Ok::<(), onelight::Error>(())
+/// ```
+///
+/// [`Process`]: crate::Process
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ProcessKeys {
+    /// The version of this description's format.
+    pub version: FormatVersion,
+    /// The simulation, the talk's first approach, or a tone mapping to compare with.
+    #[serde(with = "word::text")]
+    pub approach: Approach,
+    /// Id of the film in the camera: a negative or a reversal film. Tone mappings read it and leave it out.
+    pub camera: String,
+    /// The folder of the camera film's data sheet, unless it is built in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub camera_sheet: Option<String>,
+    /// SHA-256 of that sheet, as [`OwnSheet::sha256`](crate::OwnSheet::sha256).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub camera_sha256: Option<String>,
+    /// Id of the film that a negative is printed on; `None` (`"none"` in text) for reversal film.
+    #[serde(with = "word_lists::print")]
+    pub print: Option<String>,
+    /// The folder of the print film's data sheet, unless it is built in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub print_sheet: Option<String>,
+    /// SHA-256 of that sheet, as [`OwnSheet::sha256`](crate::OwnSheet::sha256).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub print_sha256: Option<String>,
+    /// What an 18 % grey card becomes.
+    #[serde(with = "word::text")]
+    pub aim: Aim,
+    /// Equivalent neutral density of a grey card in neutral aim, 0.05 to 3.
+    pub neutral_density: f64,
+    /// Stops that the camera film is exposed over its normal exposure, -10 to 10.
+    pub overexposure: f64,
+    /// How densities become amounts of dye.
+    #[serde(with = "word::text")]
+    pub dyes: DyeModel,
+    /// How exposures meet the characteristic curves.
+    #[serde(with = "word::text")]
+    pub matching: Matching,
+    /// How a spectrum is made for an RGB value.
+    #[serde(with = "word::text")]
+    pub reconstruction: Reconstruction,
+    /// Three separated beams in the printer, or a white one.
+    #[serde(with = "word::text")]
+    pub light: PrinterLight,
+    /// The gelatin filters in the printer.
+    #[serde(with = "word_lists::filters")]
+    pub filters: Filters,
+    /// Neutral density in the printer's red, green and blue beam, 0 to 4.
+    pub beam_density: [f64; 3],
+    /// How the printer's lights are found: `"exact"`, or the talk's iterations (`"0"` to `"30"`).
+    #[serde(with = "word_lists::calibration")]
+    pub calibration: Calibration,
+    /// Printer points on red, green and blue light, -50 to 50.
+    pub points: [f64; 3],
+    /// Whether infrared takes part in printing.
+    #[serde(with = "word::text")]
+    pub infrared: Infrared,
+    /// The heat glass of the printer.
+    #[serde(with = "word::text")]
+    pub glass: HeatGlass,
+    /// How the print's red layer goes on beyond its sheet.
+    #[serde(with = "word::text")]
+    pub red_tail: Tail,
+    /// The light that the film is seen by.
+    #[serde(with = "word::text")]
+    pub projector: Projector,
+    /// Primaries of the scene-linear RGB that comes in.
+    #[serde(with = "word::text")]
+    pub input_space: WorkingSpace,
+    /// Primaries of the display RGB that goes out.
+    #[serde(with = "word::text")]
+    pub output_space: WorkingSpace,
+    /// Transfer curve of the display RGB that goes out.
+    #[serde(with = "word::text")]
+    pub output_coding: TransferCurve,
+    /// What a hand changes in the first approach.
+    pub first: FirstControls,
+}
+
+impl Default for ProcessKeys {
+    fn default() -> Self {
+        Self {
+            version: FormatVersion,
+            approach: Approach::default(),
+            camera: DEFAULT_CAMERA.to_owned(),
+            camera_sheet: None,
+            camera_sha256: None,
+            print: Some(DEFAULT_PRINT.to_owned()),
+            print_sheet: None,
+            print_sha256: None,
+            aim: Aim::default(),
+            neutral_density: NEUTRAL_DENSITY,
+            overexposure: 0.0,
+            dyes: DyeModel::default(),
+            matching: Matching::default(),
+            reconstruction: Reconstruction::default(),
+            light: PrinterLight::default(),
+            filters: Filters::default(),
+            beam_density: Printer::default().beam_density.to_array(),
+            calibration: Calibration::default(),
+            points: [0.0; 3],
+            infrared: Infrared::default(),
+            glass: HeatGlass::default(),
+            red_tail: Tail::default(),
+            projector: Projector::default(),
+            input_space: WorkingSpace::default(),
+            output_space: WorkingSpace::default(),
+            output_coding: TransferCurve::default(),
+            first: FirstControls::default(),
+        }
+    }
+}
+
+/// The folder and the digest of a data sheet of one's own, as two keys have them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SheetKeys<'a> {
+    /// The folder, as seen from the folder of the `look.toml`.
+    pub path: &'a str,
+    /// The digest written beside it.
+    pub sha256: &'a str,
+}
+
+impl ProcessKeys {
+    /// The camera film's own sheet, if both of its keys are there.
+    #[must_use]
+    pub fn camera_sheet(&self) -> Option<SheetKeys<'_>> {
+        sheet(self.camera_sheet.as_deref(), self.camera_sha256.as_deref())
+    }
+
+    /// The print film's own sheet, if both of its keys are there.
+    #[must_use]
+    pub fn print_sheet(&self) -> Option<SheetKeys<'_>> {
+        sheet(self.print_sheet.as_deref(), self.print_sha256.as_deref())
+    }
+
+    /// What `print` is for a word: the id of a film, or `None` for `none`.
+    ///
+    /// # Errors
+    /// If the word is `none` in capitals.
+    pub fn parse_print(word: &str) -> Result<Option<String>, Error> {
+        parse_print(word)
+    }
+
+    /// What `calibration` is for a word: `exact`, or a number of iterations.
+    ///
+    /// # Errors
+    /// If the word is neither `exact` nor a number of iterations.
+    pub fn parse_calibration(word: &str) -> Result<Calibration, Error> {
+        parse_calibration(word)
+    }
+}
+
+fn sheet<'a>(path: Option<&'a str>, sha256: Option<&'a str>) -> Option<SheetKeys<'a>> {
+    path.zip(sha256).map(|(path, sha256)| SheetKeys { path, sha256 })
+}

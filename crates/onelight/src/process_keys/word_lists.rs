@@ -1,0 +1,77 @@
+//! Keys of `look.toml` whose values are no single word of a list.
+
+use onelight_printing::Calibration;
+
+use crate::error::{Error, Kind};
+use crate::message::cut;
+
+/// What `print` is for a word: the id of a film, or `None` for `none`.
+pub(super) fn parse_print(word: &str) -> Result<Option<String>, Error> {
+    match word {
+        "none" => Ok(None),
+        _ if word.eq_ignore_ascii_case("none") => {
+            let expected = "the id of a print film, or none (did you mean \"none\"?)".to_owned();
+            Err(Kind::Word { what: "print", found: word.to_owned(), expected }.into())
+        }
+        _ => Ok(Some(word.to_owned())),
+    }
+}
+
+/// What `calibration` is for a word: `exact`, or a number of iterations.
+pub(super) fn parse_calibration(word: &str) -> Result<Calibration, Error> {
+    let count = || word.parse().ok().filter(|count| *count <= 30).map(Calibration::Iterations);
+    let found = if word == "exact" { Some(Calibration::Exact) } else { count() };
+    found.ok_or_else(|| {
+        let expected = "exact, or 0 to 30 iterations".to_owned();
+        Kind::Word { what: "calibration", found: cut(word), expected }.into()
+    })
+}
+
+/// `filters`: a list of numbers as words.
+pub(super) mod filters {
+    use onelight_printing::{Filters, Wratten};
+    use serde::{Deserialize, Deserializer, Serializer, de};
+
+    use crate::word::Word;
+
+    pub(crate) fn serialize<S: Serializer>(filters: &Filters, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(filters.iter().map(Word::word))
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Filters, D::Error> {
+        let words = Vec::<String>::deserialize(deserializer)?;
+        let filters: Result<Vec<Wratten>, _> = words.iter().map(|word| Wratten::parse(word)).collect();
+        Ok(Filters::of(&filters.map_err(de::Error::custom)?))
+    }
+}
+
+/// `calibration`: `"exact"`, or a number of iterations.
+pub(super) mod calibration {
+    use onelight_printing::Calibration;
+    use serde::{Deserialize, Deserializer, Serializer, de};
+
+    pub(crate) fn serialize<S: Serializer>(calibration: &Calibration, serializer: S) -> Result<S::Ok, S::Error> {
+        match calibration {
+            Calibration::Exact => serializer.serialize_str("exact"),
+            Calibration::Iterations(count) => serializer.collect_str(count),
+        }
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Calibration, D::Error> {
+        super::parse_calibration(&String::deserialize(deserializer)?).map_err(de::Error::custom)
+    }
+}
+
+/// `print`: an id, or `"none"`.
+pub(super) mod print {
+    use serde::{Deserialize, Deserializer, Serializer, de};
+
+    #[expect(clippy::ref_option, reason = "the signature serde asks for")]
+    pub(crate) fn serialize<S: Serializer>(print: &Option<String>, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(print.as_deref().unwrap_or("none"))
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<String>, D::Error> {
+        super::parse_print(&String::deserialize(deserializer)?).map_err(de::Error::custom)
+    }
+}

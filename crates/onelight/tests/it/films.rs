@@ -1,0 +1,47 @@
+//! Films that several tests look at, compiled once.
+
+use std::collections::HashMap;
+use std::sync::{Arc, LazyLock, Mutex, OnceLock};
+
+use onelight::lut::DirectForm;
+use onelight::{FilmProcess, Process, Reference};
+
+/// Made when it is first asked for; others wait for it.
+type Slot<T> = Arc<OnceLock<Arc<T>>>;
+type Slots<T> = LazyLock<Mutex<HashMap<String, Slot<T>>>>;
+
+static FILMS: Slots<Reference> = LazyLock::new(Mutex::default);
+static DIRECT: Slots<DirectForm> = LazyLock::new(Mutex::default);
+
+fn once<T>(slots: &Slots<T>, process: &FilmProcess, make: impl FnOnce() -> T) -> Arc<T> {
+    let key = Process::from(process.clone()).to_toml();
+    let slot = Arc::clone(slots.lock().unwrap().entry(key).or_default());
+    Arc::clone(slot.get_or_init(|| Arc::new(make())))
+}
+
+/// A process that compiles, compiled.
+pub(crate) fn compiled(process: &FilmProcess) -> Arc<Reference> {
+    once(&FILMS, process, || process.compile().unwrap_or_else(|error| panic!("{process:?}: {error}")))
+}
+
+/// The usual process of a camera film, compiled.
+pub(crate) fn film(camera: &str) -> Arc<Reference> {
+    compiled(&process(camera))
+}
+
+/// The usual direct form of a process.
+pub(crate) fn direct(process: &FilmProcess) -> Arc<DirectForm> {
+    once(&DIRECT, process, || compiled(process).direct(&Default::default()).unwrap())
+}
+
+/// The usual process of a camera film.
+pub(crate) fn process(camera: &str) -> FilmProcess {
+    FilmProcess::for_camera(camera).unwrap()
+}
+
+/// The usual process of a negative with its printing changed.
+pub(crate) fn printed(camera: &str, turn: impl FnOnce(&mut onelight::Printing)) -> FilmProcess {
+    let mut process = process(camera);
+    turn(process.print.as_mut().unwrap());
+    process
+}

@@ -1,0 +1,114 @@
+//! Reading OpenEXR: the header and its checks; the pixels are read by [`exr_bands`](crate::exr_bands).
+//!
+//! The `exr` crate parses the header and unpacks blocks. The table of offsets and the blocks' own headers are read
+//! here, so that each block is known to be the one asked for: a damaged table then gives an error and not a picture
+//! with a hole.
+
+use std::io::{Seek, SeekFrom};
+
+use exr::{
+    compression::Compression,
+    meta::{BlockDescription, MetaData, attribute::IntegerBounds, header::Header},
+};
+
+use crate::{
+    band::Bands,
+    description::{Channels, Chromaticities, Description, Source, Windows},
+    error::{Error, ExrProblem, exr_message},
+    exr_bands::{self, ExrBands},
+    exr_blocks::Blocks,
+    exr_boxes, exr_layout,
+    input::Input,
+    limits::{Limits, check_claim, check_shown},
+    panic_to_error::panic_to_error,
+};
+
+/// Opens a picture in an OpenEXR file of `length` bytes.
+pub(crate) fn open<'a>(
+    mut reader: Input<'a>,
+    length: u64,
+    limits: &Limits,
+) -> Result<(Description, Box<dyn Bands + 'a>), Error> {
+    exr_boxes::check(&mut reader)?;
+    reader.seek(SeekFrom::Start(0))?;
+    let meta = panic_to_error(|| MetaData::read_from_buffered(&mut reader, false))?
+        .map_err(|error| ExrProblem::HeaderUnreadable(exr_message(&error)))?;
+    let tables_at = reader.stream_position()?;
+
+    let layout = exr_layout::choose(&meta.headers)?;
+    let header = &meta.headers[layout.part];
+    check(header, length, limits)?;
+    panic_to_error(|| MetaData::validate(std::slice::from_ref(header), false))?
+        .map_err(|error| ExrProblem::HeaderWrong(exr_message(&error)))?;
+
+    let (windows, mut notes) = (windows(header), layout.notes.clone());
+    if windows.pixel_aspect != header.shared_attributes.pixel_aspect {
+        notes.push("took the pixels for square, as the file's pixel aspect ratio cannot be".to_owned());
+    }
+    let description = Description {
+        width: header.layer_size.0,
+        height: header.layer_size.1,
+        channels: if layout.alpha.is_some() { Channels::Rgba } else { Channels::Rgb },
+        windows,
+        primaries: header.shared_attributes.chromaticities.map(|xy| Chromaticities {
+            red: [xy.red.0, xy.red.1],
+            green: [xy.green.0, xy.green.1],
+            blue: [xy.blue.0, xy.blue.1],
+            white: [xy.white.0, xy.white.1],
+        }),
+        source: Source::Exr,
+        notes,
+    };
+    let blocks = Blocks::open(reader, length, tables_at, &meta, layout.part)?;
+    Ok((description, Box::new(ExrBands::new(blocks, meta, layout))))
+}
+
+/// Checks all that memory is taken for, before it is taken.
+fn check(header: &Header, length: u64, limits: &Limits) -> Result<(), Error> {
+    let (width, height) = (header.layer_size.0 as u64, header.layer_size.1 as u64);
+    limits.check_size("the data window", width, height)?;
+    let IntegerBounds { size, .. } = header.shared_attributes.display_window;
+    let shown = [size.0 as u64, size.1 as u64];
+    limits.check_size("the display window", shown[0], shown[1])?;
+    check_shown([width, height], shown)?;
+    if let BlockDescription::Tiles(tiles) = header.blocks {
+        let tile = tiles.tile_size;
+        if tile.0 as u64 > limits.max_side || tile.1 as u64 > limits.max_side {
+            return Err(ExrProblem::TileSide { found: [tile.0, tile.1], max: limits.max_side }.into());
+        }
+    }
+    let expansion = expansion(header.compression)?;
+    let claimed = (width * height).saturating_mul(header.channels.bytes_per_pixel as u64);
+    check_claim([width, height], claimed, length, expansion)?;
+    exr_bands::check_memory(header, limits)
+}
+
+/// The most bytes of samples that one byte of file can stand for, generously: zlib gives 1032, PXR24 a third more, the
+/// runs of PIZ some 400; DWA stores one coefficient for 64 flat pixels on top of that.
+fn expansion(compression: Compression) -> Result<u64, Error> {
+    match compression {
+        Compression::Uncompressed => Ok(1),
+        Compression::RLE => Ok(64),
+        Compression::ZIP1
+        | Compression::ZIP16
+        | Compression::PIZ
+        | Compression::PXR24
+        | Compression::B44
+        | Compression::B44A => Ok(1 << 11),
+        Compression::DWAA(_) | Compression::DWAB(_) => Ok(1 << 15),
+        Compression::HTJ2K32 | Compression::HTJ2K256 => Err(ExrProblem::Htj2k.into()),
+    }
+}
+
+fn windows(header: &Header) -> Windows {
+    let data = header.own_attributes.layer_position;
+    let display = header.shared_attributes.display_window;
+    let aspect = header.shared_attributes.pixel_aspect;
+    Windows {
+        data_origin: [data.0, data.1],
+        display_origin: [display.position.0, display.position.1],
+        display_size: [display.size.0, display.size.1],
+        // The range of OpenEXR's own check, without which the picture could not be written again.
+        pixel_aspect: if (1e-6..=1e6).contains(&aspect) { aspect } else { 1.0 },
+    }
+}

@@ -1,0 +1,70 @@
+//! `stability`: every implementation of a look, on inputs that are hard.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use clap::Args;
+use onelight::{Process, StockKind, stock, stock_ids};
+use onelight_benches::stability::{Card, Contents, STEPS, rows as measured};
+
+use super::certify::{of_the_readme, with_films};
+use crate::atomic_file::AtomicFiles;
+use crate::look::LookArguments;
+use crate::progress::{Clock, bar};
+use crate::{Report, folders};
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    look: LookArguments,
+    /// Every camera film on every print film, 59 looks; without it, and where no film is named, the ten of the README
+    #[arg(long, conflicts_with_all = ["camera", "print", "aim"])]
+    all: bool,
+    /// Folder to write stability.md and stability.json to [default: target/onelight]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print the result as one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
+    let mut clock = Clock::default();
+    let folder = match &arguments.out {
+        Some(folder) => folders::make(folder)?,
+        None => folders::output("")?,
+    };
+    let processes = processes(arguments)?;
+    let card = Card::open()?;
+    let progress = bar("measuring", (processes.len() * STEPS) as u64);
+    let mut rows = Vec::new();
+    for process in &processes {
+        rows.extend(clock.time("measure", || measured(process, card.as_ref(), || progress.inc(1)))?);
+    }
+    progress.finish_and_clear();
+    let contents = Contents { card: card.as_ref().map(|card| card.name().to_owned()), rows: &rows };
+    let mut json = contents.json();
+    let mut files = AtomicFiles::in_folder(&folder);
+    files.add("stability.md", contents.markdown().into_bytes());
+    files.add("stability.json", serde_json::to_vec_pretty(&json)?);
+    let written: Vec<String> = files.write()?.iter().map(|file| folders::shown(file)).collect();
+    let text = format!("{}{}\ntime: {}\n", contents.summary(), written.join("\n"), clock.sentence());
+    json["files"] = written.into();
+    Ok(Report { text, json, as_json: arguments.json })
+}
+
+/// The look named; else those of the README, or all.
+fn processes(arguments: &Arguments) -> Result<Vec<Process>> {
+    let base = arguments.look.chosen()?.process;
+    if !arguments.all {
+        return if arguments.look.names_film() { Ok(vec![base]) } else { of_the_readme(&base) };
+    }
+    let of_kind = |kind| stock_ids().filter(move |id| stock(id).is_ok_and(|stock| stock.kind() == kind));
+    let process =
+        |camera: &str, print: Option<&str>| with_films(&base, (camera.to_owned(), print.map(str::to_owned)), |_| {});
+    let reversal = of_kind(StockKind::Reversal).map(|camera| process(camera, None));
+    let negatives = of_kind(StockKind::Negative)
+        .flat_map(|camera| of_kind(StockKind::Print).map(move |print| (camera, print)))
+        .map(|(camera, print)| process(camera, Some(print)));
+    reversal.chain(negatives).collect()
+}

@@ -1,0 +1,432 @@
+//! The runner as a user meets it: every mistake ends with one sentence, exit status 2 and no file.
+
+use std::path::Path;
+use std::process::{Output, Stdio};
+use std::{fs, str};
+
+use crate::program::{names as files, program, with_scene};
+
+fn xtask(folder: &Path, arguments: &[&str]) -> Output {
+    program().args(arguments).current_dir(folder).output().unwrap()
+}
+
+fn done(folder: &Path, arguments: &[&str]) -> String {
+    let output = xtask(folder, arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", str::from_utf8(&output.stderr).unwrap());
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Runs a mistake; returns the sentence.
+fn refused(folder: &Path, arguments: &[&str]) -> String {
+    let before = files(folder);
+    let output = xtask(folder, arguments);
+    let sentence = str::from_utf8(&output.stderr).unwrap().to_owned();
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {sentence}");
+    assert!(sentence.starts_with("error: ") && !sentence.contains("panicked"), "{sentence}");
+    let clauses: Vec<&str> = sentence.trim_end().split(": ").collect();
+    let once = (1..clauses.len()).all(|i| !clauses[..i].contains(&clauses[i]));
+    assert!(once, "says something twice: {sentence}");
+    assert_eq!(files(folder), before, "{arguments:?} left something behind");
+    sentence
+}
+
+#[test]
+fn pictures_that_cannot_be_developed_are_named() {
+    let folder = with_scene();
+    let folder = folder.path();
+    let whole = fs::read(folder.join("scene.exr")).unwrap();
+    fs::write(folder.join("cut.exr"), &whole[..whole.len() / 2]).unwrap();
+    fs::write(folder.join("head.exr"), &whole[..60]).unwrap();
+    fs::write(folder.join("empty.exr"), b"").unwrap();
+    fs::write(folder.join("text.exr"), b"this is no picture").unwrap();
+    for name in ["cut.exr", "head.exr", "empty.exr", "text.exr", "missing.exr", "."] {
+        let sentence = refused(folder, &["develop", name, "out.png"]);
+        assert!(sentence.contains(name) && sentence.trim_end().lines().count() == 1, "{sentence}");
+    }
+    assert!(refused(folder, &["develop", "scene.exr", "out.jpg"]).contains(".png"));
+    assert!(refused(folder, &["develop", "scene.exr", "no/such/folder/out.png"]).contains("folder"));
+    assert!(refused(folder, &["develop", "scene.exr", "out.png", "--ev", "much"]).contains("auto"));
+}
+
+#[test]
+fn looks_that_contradict_themselves_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    assert!(refused(folder, &["bake", "--camera", "kodak-5270"]).contains("nearest"));
+    assert!(refused(folder, &["bake", "--camera", "kodak-2383"]).contains("is a print film"));
+    assert!(refused(folder, &["bake", "--camera", "fuji-velvia-50", "--print", "kodak-2383"]).contains("reversal"));
+    assert!(refused(folder, &["bake", "--print", "none"]).contains("is a negative"));
+    assert!(refused(folder, &["bake", "--look", "missing.toml"]).contains("missing.toml"));
+    assert!(refused(folder, &["bake", "--size", "1"]).contains("--size"));
+    let look = |text: &str| fs::write(folder.join("look.toml"), text).unwrap();
+    look("version = 1\ncamrea = \"kodak-5207\"\n");
+    let sentence = refused(folder, &["bake", "--look", "look.toml"]);
+    assert!(sentence.contains("look.toml:2") && sentence.contains("\"camera\""), "{sentence}");
+    look("version = 1\nglass = \"none\"\nred_tail = \"held\"\n");
+    assert!(refused(folder, &["bake", "--look", "look.toml"]).contains("printer lights"));
+    fs::write(folder.join("file"), b"").unwrap();
+    assert!(refused(folder, &["bake", "--out", "file/below"]).contains("file/below"));
+    assert!(refused(folder, &["bake", "--out", "file"]).contains("error: file: is a file, expected a folder"));
+    assert!(refused(folder, &["bake", "--look", "."]).contains("error: .: is a folder, expected a look.toml"));
+    assert!(refused(folder, &["bake", "--print", "NONE"]).contains("did you mean \"none\"?"));
+    assert!(refused(folder, &["stocks", "velvia"]).contains("fuji-velvia-50"));
+    let far = refused(folder, &["stocks", &"?".repeat(9999)]);
+    assert!(far.contains("`cargo xtask stocks` lists all") && !far.contains("nearest") && far.len() < 200, "{far}");
+}
+
+#[test]
+fn a_look_is_baked_saved_and_baked_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let first = done(
+        folder,
+        &["bake", "--camera", "kodak-portra-400", "--aim", "sheet", "--size", "9", "--out", "a", "--json"],
+    );
+    let json: serde_json::Value = serde_json::from_str(&first).unwrap();
+    assert_eq!(json["process"]["camera"], "kodak-portra-400");
+    assert!(json["certificate"]["max_found"].as_f64().unwrap() > 0.0);
+    assert_eq!(files(&folder.join("a")), ["look.cube", "look.json", "look.toml", "preview.png"]);
+    done(folder, &["bake", "--look", "a/look.toml", "--size", "9", "--out", "b"]);
+    for name in ["look.cube", "look.json", "look.toml", "preview.png"] {
+        assert!(
+            fs::read(folder.join("a").join(name)).unwrap() == fs::read(folder.join("b").join(name)).unwrap(),
+            "{name}"
+        );
+    }
+}
+
+/// The scene, as `fixtures` writes it: something to develop.
+#[test]
+fn the_fixture_scene_is_written_and_developed() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let said = done(folder, &["fixtures", "--out", "."]);
+    assert!(said.contains("640x360"), "{said}");
+    done(folder, &["develop", "scene.exr", "plain.png", "--form", "plain", "--bits", "16"]);
+    let again = done(folder, &["develop", "plain.png", "again.png", "--form", "plain", "--input-coding", "srgb"]);
+    assert!(again.contains("640x360"), "{again}");
+}
+
+#[test]
+fn forms_and_formats_agree_on_the_scene() {
+    let folder = with_scene();
+    let folder = folder.path();
+    done(folder, &["develop", "scene.exr", "plain.png", "--form", "plain", "--bits", "16"]);
+    done(folder, &["develop", "scene.exr", "structured.png", "--form", "structured", "--bits", "16"]);
+    done(folder, &["develop", "scene.exr", "direct.png", "--form", "direct", "--bits", "16"]);
+    done(folder, &["develop", "scene.exr", "film.exr"]);
+    done(folder, &["develop", "scene.exr", "film.png", "--ev", "0"]);
+    // A developed picture is a picture: it can be developed again, its integers named as what they are.
+    let again = done(folder, &["develop", "film.png", "again.png", "--input-coding", "srgb"]);
+    assert!(again.contains("160x90"));
+    let note = done(folder, &["develop", "scene.exr", "dark.png", "--ev", "-8"]);
+    assert!(note.contains("--ev auto"), "{note}");
+    let auto: serde_json::Value =
+        serde_json::from_str(&done(folder, &["develop", "scene.exr", "auto.png", "--ev", "auto", "--json"])).unwrap();
+    assert!(auto["ev"].as_f64().unwrap().abs() < 4.0);
+    let coded = |path: &str| image::open(folder.join(path)).unwrap().to_rgb16();
+    let film = coded("film.png");
+    let largest = |path: &str| coded(path).iter().zip(film.iter()).map(|(a, b)| a.abs_diff(*b)).max().unwrap();
+    // 8-bit rounding of the film is 128 of 65535; the tables add what their certificates say, dE 0.2 and 0.8 at most.
+    let (direct, structured, plain) = (largest("direct.png"), largest("structured.png"), largest("plain.png"));
+    assert!(direct < 300 && structured < 300 && plain < 2000, "{direct} {structured} {plain}");
+}
+
+#[test]
+fn the_talk_is_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let text = done(folder, &["compare", "--sheets", "infrared,banding", "--out", "sheets"]);
+    assert!(text.contains("infrared off") && text.contains("float 7e3, grey at 0.72"), "{text}");
+    assert_eq!(
+        files(&folder.join("sheets")),
+        ["banding.png", "colorchecker_infrared.png", "index.html", "scene_infrared.png"]
+    );
+    assert!(!fs::read_to_string(folder.join("sheets/index.html")).unwrap().contains("http"));
+    assert!(refused(folder, &["compare", "--sheets", "none"]).contains("infrared"));
+    assert!(refused(folder, &["compare", "missing.exr"]).contains("missing.exr"));
+    let light: serde_json::Value =
+        serde_json::from_str(&done(folder, &["light", "--lux", "1000", "--kelvin", "3200", "--json"])).unwrap();
+    let published = [8.230, 4.500, 1.610];
+    for (found, published) in light["rgb_w_per_m2"].as_array().unwrap().iter().zip(published) {
+        assert!((found.as_f64().unwrap() - published).abs() < 1e-3, "{light}");
+    }
+    assert!(refused(folder, &["light", "--lux", "1e99"]).contains("1e12"));
+}
+
+#[test]
+fn every_approach_is_baked_and_developed() {
+    let folder = with_scene();
+    let folder = folder.path();
+    for approach in ["first", "reinhard", "reinhard-luminance", "clip"] {
+        done(folder, &["develop", "scene.exr", "exact.png", "--approach", approach, "--bits", "16"]);
+        done(folder, &["develop", "scene.exr", "table.png", "--approach", approach, "--form", "plain", "--bits", "16"]);
+        let coded = |path: &str| image::open(folder.join(path)).unwrap().to_rgb16();
+        let (exact, table) = (coded("exact.png"), coded("table.png"));
+        let mean = exact.iter().zip(table.iter()).map(|(a, b)| f64::from(a.abs_diff(*b))).sum::<f64>()
+            / exact.as_raw().len() as f64;
+        assert!(mean < 150.0, "{approach}: {mean} of 65535");
+    }
+    done(folder, &["bake", "--approach", "first", "--saturation", "0.9", "--size", "9", "--out", "a"]);
+    let look = fs::read_to_string(folder.join("a/look.toml")).unwrap();
+    assert!(look.contains("approach = \"first\"") && look.contains("saturation = 0.9"), "{look}");
+    done(folder, &["bake", "--look", "a/look.toml", "--size", "9", "--out", "b"]);
+    assert!(fs::read(folder.join("a/look.cube")).unwrap() == fs::read(folder.join("b/look.cube")).unwrap());
+    let sentence = refused(folder, &["bake", "--approach", "clip", "--form", "structured"]);
+    assert!(sentence.contains("expected approach second"), "{sentence}");
+}
+
+#[test]
+fn cameras_and_buffers_come_before_the_film() {
+    let folder = with_scene();
+    let folder = folder.path();
+    let bytes = |output: &str, arguments: &[&str]| {
+        done(folder, &[&["develop", "scene.exr", output, "--form", "plain"], arguments].concat());
+        fs::read(folder.join(output)).unwrap()
+    };
+    let plain = bytes("plain.png", &[]);
+    assert!(plain != bytes("banded.png", &["--buffer", "unorm8", "--buffer-scale", "0.25"]));
+    let camera = ["--shutter", "1/60", "--f-number", "2.8", "--iso", "400"];
+    let lux = bytes("lux.png", &[&["--unit", "lux"], &camera[..]].concat());
+    let brighter = bytes("iso.png", &["--unit", "lux", "--shutter", "1/60", "--f-number", "2.8", "--iso", "800"]);
+    assert!(lux != plain && lux != brighter);
+    let sentence = refused(folder, &["develop", "scene.exr", "a.png", "--shutter", "1/60"]);
+    assert!(sentence.contains("--unit"), "{sentence}");
+    let auto = [&["develop", "scene.exr", "a.png", "--ev", "auto", "--unit", "lux"], &camera[..]].concat();
+    assert!(refused(folder, &auto).contains("one or the other"));
+}
+
+#[test]
+fn switches_that_change_nothing_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let message = |arguments: &[&str]| refused(folder.path(), &[&["bake"], arguments].concat());
+    assert!(message(&["--camera", "fuji-velvia-50", "--points", "1,0,0"]).contains("points changes nothing"));
+    assert!(message(&["--contrast", "1.5"]).contains("approach first"));
+    assert!(message(&["--approach", "reinhard", "--aim", "sheet"]).contains("aim changes nothing"));
+    assert!(message(&["--approach", "first", "--glass", "none"]).contains("glass changes nothing"));
+    assert!(message(&["--aim", "sheet", "--neutral-density", "1"]).contains("neutral_density changes nothing"));
+    assert!(message(&["--light", "white", "--filters", "70,2b"]).contains("separation filters"));
+    assert!(message(&["--glass", "none", "--red-tail", "held"]).contains("printer lights"));
+    assert!(message(&["--filters", "none"]).contains("two printer lights do the same"));
+    assert!(message(&["--neutral-density", "9"]).contains("expected 0.05 to 3"));
+    assert!(message(&["--points", "99,0,0"]).contains("points: found 99, expected -50 to 50"));
+}
+
+#[test]
+fn commands_that_only_look_work() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(done(folder.path(), &["stocks"]).contains("kodak-kodachrome-64"));
+    assert!(done(folder.path(), &["stocks", "--check"]).contains("59 processes"));
+    let velvia: serde_json::Value =
+        serde_json::from_str(&done(folder.path(), &["stocks", "fuji-velvia-50", "--json"])).unwrap();
+    assert_eq!(velvia["kind"], "reversal");
+    let fidelity = done(folder.path(), &["stocks", "--fidelity"]);
+    assert!(fidelity.contains("kodak-portra-400"));
+    assert_eq!(done(folder.path(), &["stocks", "--likeness"]), fidelity, "the name of before");
+    for command in ["bake", "compare", "develop", "light", "stability", "stocks", "fixtures", "tidy"] {
+        assert!(done(folder.path(), &[command, "--help"]).contains("Usage"));
+    }
+}
+
+#[test]
+fn hard_inputs_break_no_limit() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let text = done(folder, &["stability", "--camera", "fuji-velvia-50", "--out", "a", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!((&json["looks"], &json["broken"]), (&1.into(), &0.into()), "{}", json["worst"]);
+    assert_eq!(files(&folder.join("a")), ["stability.json", "stability.md"]);
+    let page = fs::read_to_string(folder.join("a/stability.md")).unwrap();
+    assert_eq!(page.matches("\n| fuji-velvia-50, neutral aim | ").count(), json["rows"].as_array().unwrap().len());
+    assert!(refused(folder, &["stability", "--all", "--camera", "kodak-5207"]).contains("--all"));
+}
+
+#[test]
+fn a_table_is_chosen_and_measured_on_the_users_scene() {
+    let folder = with_scene();
+    let folder = folder.path();
+    let chosen = done(folder, &["bake", "--max-de", "1.5", "--scene", "scene.exr", "--out", "a", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&chosen).unwrap();
+    assert!(json["certificate"]["max_found"].as_f64().unwrap() <= 1.5);
+    assert!(json["scene"]["mean"].as_f64().unwrap() < 0.5);
+    assert_eq!(json["failures"].as_array().unwrap().len(), 0);
+    let saved: serde_json::Value = serde_json::from_slice(&fs::read(folder.join("a/look.json")).unwrap()).unwrap();
+    assert_eq!(saved["certificate"], json["certificate"]);
+    let fitted = done(folder, &["bake", "--scene", "scene.exr", "--size", "17", "--out", "b"]);
+    assert!(fitted.contains("on the scene given"), "{fitted}");
+    assert!(refused(folder, &["bake", "--scene", "missing.exr"]).contains("missing.exr"));
+    assert!(refused(folder, &["bake", "--form", "structured", "--format", "cube"]).contains("clf"));
+    assert!(refused(folder, &["bake", "--format", "hald"]).contains("--shaper srgb"));
+    assert!(refused(folder, &["bake", "--shaper", "srgb", "--format", "hald", "--size", "20"]).contains("20"));
+}
+
+#[test]
+fn the_direct_form_is_baked_chosen_and_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let json = |text: &str| -> serde_json::Value { serde_json::from_str(text).unwrap() };
+    let baked = json(&done(folder, &["bake", "--form", "direct", "--nodes", "7,3", "--out", "a", "--json"]));
+    assert_eq!(files(&folder.join("a")), ["look.direct.json", "look.json", "look.toml", "preview.png"]);
+    assert!(baked["certificate"]["max_found"].as_f64().unwrap() < 0.4, "{}", baked["certificate"]["max_found"]);
+    let file = json(&fs::read_to_string(folder.join("a/look.direct.json")).unwrap());
+    assert_eq!(file["projection"].as_array().unwrap().len(), 7);
+    assert_eq!(file["print"]["exposure"].as_array().unwrap().len(), 3);
+    assert!(file["comments"].as_array().unwrap().iter().any(|line| line.as_str().unwrap().contains("CIEDE2000")));
+    let chosen = ["bake", "--form", "direct", "--camera", "fuji-velvia-50", "--max-de", "0.5", "--out", "b", "--json"];
+    let chosen = json(&done(folder, &chosen));
+    assert!(chosen["certificate"]["max_found"].as_f64().unwrap() <= 0.5);
+    let direct = |more: &[&str]| refused(folder, &[&["bake", "--form", "direct"], more].concat());
+    assert!(direct(&["--format", "clf"]).contains("expected json"));
+    assert!(direct(&["--nodes", "six"]).contains("8,4"));
+    assert!(direct(&["--nodes", "40"]).contains("from 2 to 16"));
+    assert!(direct(&["--camera", "fuji-velvia-50", "--max-de", "1e-6"]).contains("the nearest had"));
+    assert!(refused(folder, &["bake", "--format", "json"]).contains("--form direct"));
+    assert!(refused(folder, &["bake", "--nodes", "6"]).contains("--form direct"));
+}
+
+#[test]
+fn a_quick_bake_is_the_same_table_and_says_what_it_lacks() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let said = done(folder, &["bake", "--quick", "--size", "9", "--out", "quick"]);
+    assert!(said.contains("not certified"), "{said}");
+    assert_eq!(files(&folder.join("quick")), ["look.cube", "look.toml"]);
+    done(folder, &["bake", "--size", "9", "--out", "slow"]);
+    let table = |folder_name: &str| -> Vec<String> {
+        let text = fs::read_to_string(folder.join(folder_name).join("look.cube")).unwrap();
+        assert_eq!(text.contains("not certified"), folder_name == "quick");
+        text.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect()
+    };
+    assert_eq!(table("quick"), table("slow"));
+    assert!(refused(folder, &["bake", "--quick", "--max-de", "1"]).contains("--max-de"));
+}
+
+#[test]
+fn certificates_are_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = done(folder.path(), &["certify", "--camera", "fuji-velvia-50", "--colours", "1024"]);
+    for form in ["the talk's 32^3", "plain 33^3", "structured 16^3", "structured 32^3", "direct 10 + 5"] {
+        assert!(text.contains(form), "{text}");
+    }
+    assert!(done(folder.path(), &["certify", "--buffers"]).contains("7e3"));
+    assert!(refused(folder.path(), &["certify", "--colours", "3"]).contains("256"));
+}
+
+#[test]
+fn a_picture_knows_its_primaries_better_than_a_look() {
+    let folder = with_scene();
+    let folder = folder.path();
+    // An EXR that says it holds Rec.2020.
+    done(folder, &["develop", "scene.exr", "wide.exr", "--output-space", "rec2020"]);
+    let bytes = |output: &str, arguments: &[&str]| {
+        done(folder, &[&["develop", "wide.exr", output, "--form", "plain"], arguments].concat());
+        fs::read(folder.join(output)).unwrap()
+    };
+    fs::write(folder.join("look.toml"), "version = 1\ninput_space = \"srgb\"\n").unwrap();
+    let own = bytes("a.png", &[]);
+    assert!(own == bytes("b.png", &["--look", "look.toml"]));
+    assert!(own != bytes("c.png", &["--input-space", "srgb"]));
+}
+
+#[test]
+fn output_that_nobody_reads_is_no_crash() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |stdout: Stdio| {
+        let mut command = program();
+        command
+            .args(["stocks", "--json"])
+            .current_dir(folder.path())
+            .stdout(stdout)
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap()
+    };
+    let mut closed = run(Stdio::piped());
+    drop(closed.stdout.take());
+    assert_eq!(closed.wait().unwrap().code(), Some(0));
+    if let Ok(full) = fs::OpenOptions::new().write(true).open("/dev/full") {
+        let output = run(full.into()).wait_with_output().unwrap();
+        let sentence = str::from_utf8(&output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{sentence}");
+        assert!(sentence.starts_with("error: ") && sentence.trim_end().lines().count() == 1, "{sentence}");
+    }
+}
+
+#[test]
+fn a_picture_is_not_replaced_by_its_own_development() {
+    let folder = with_scene();
+    assert!(refused(folder.path(), &["develop", "scene.exr", "scene.exr"]).contains("another name"));
+    assert!(refused(folder.path(), &["develop", "scene.exr", "./scene.exr"]).contains("another name"));
+}
+
+/// A folder with the data sheet of a built-in stock under another id.
+fn own_sheet(folder: &Path, from: &str, id: &str) {
+    let (own, built_in) = (folder.join(id), Path::new(env!("CARGO_MANIFEST_DIR")).join("../stocks").join(from));
+    fs::create_dir(&own).unwrap();
+    for name in ["stock.toml", "sensitivity.csv", "characteristic.csv", "dye_density.csv"] {
+        let text = fs::read_to_string(built_in.join(name)).unwrap();
+        fs::write(own.join(name), text.replace(&format!("id = \"{from}\""), &format!("id = \"{id}\""))).unwrap();
+    }
+}
+
+/// A small bake without a certificate, with more options.
+fn quickly<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    [&["bake", "--quick", "--size", "9"], more].concat()
+}
+
+#[test]
+fn a_data_sheet_of_ones_own_is_a_film_like_any_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    own_sheet(folder, "kodak-5207", "mine");
+    own_sheet(folder, "kodak-2383", "my-print");
+    done(folder, &quickly(&["--out", "built-in"]));
+    let said = done(folder, &quickly(&["--camera", "./mine", "--print", "my-print", "--out", "looks/own"]));
+    assert!(said.contains("mine_my-print"), "{said}");
+    // The same film under another name.
+    let table = |name: &str| {
+        let text = fs::read_to_string(folder.join(name).join("look.cube")).unwrap();
+        text.lines().filter(|line| !line.starts_with(['#', 'T'])).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(table("looks/own"), table("built-in"));
+    // Found again from where the description is.
+    let look = fs::read_to_string(folder.join("looks/own/look.toml")).unwrap();
+    assert!(look.contains("camera = \"mine\"\ncamera_sheet = \"../../mine\"\ncamera_sha256 = \""), "{look}");
+    assert!(look.contains("print_sheet = \"../../my-print\""), "{look}");
+    done(folder, &quickly(&["--look", "looks/own/look.toml", "--out", "looks/again"]));
+    assert_eq!(look, fs::read_to_string(folder.join("looks/again/look.toml")).unwrap());
+    assert_eq!(table("looks/again"), table("looks/own"));
+    // Every form.
+    for form in ["structured", "direct"] {
+        done(folder, &quickly(&["--camera", "mine", "--form", form, "--out", form]));
+    }
+    // A changed sheet is refused, and taken where it is asked for.
+    let sheet = folder.join("mine/stock.toml");
+    fs::write(&sheet, fs::read_to_string(&sheet).unwrap() + "# changed\n").unwrap();
+    let changed = quickly(&["--look", "looks/own/look.toml", "--out", "looks/changed"]);
+    let sentence = refused(folder, &changed);
+    assert!(sentence.contains("has changed since") && sentence.contains("--camera"), "{sentence}");
+    done(folder, &[&changed[..], &["--camera", "mine"]].concat());
+}
+
+#[test]
+fn data_sheets_that_cannot_be_used_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    own_sheet(folder, "kodak-5207", "mine");
+    own_sheet(folder, "kodak-2383", "my-print");
+    own_sheet(folder, "fuji-velvia-50", "my-slide");
+    fs::create_dir(folder.join("empty")).unwrap();
+    let message = |arguments: &[&str]| refused(folder, &[&["bake", "--quick"], arguments].concat());
+    assert!(message(&["--camera", "./gone"]).contains("no such folder"));
+    assert!(message(&["--camera", "empty"]).contains("no stock.toml in it"));
+    assert!(message(&["--camera", "my-print"]).contains("is a print film"));
+    assert!(message(&["--camera", "my-slide", "--print", "my-print"]).contains("is a reversal film"));
+    assert!(message(&["--print", "mine"]).contains("is a camera film"));
+    assert!(message(&["--camera", "my-slide", "--points", "1,0,0"]).contains("points changes nothing"));
+    assert!(message(&["--camera", "mine", "--approach", "reinhard"]).contains("knows no film"));
+    fs::write(folder.join("mine/characteristic.csv"), "log10_exposure,red\n0,none\n").unwrap();
+    assert!(message(&["--camera", "mine"]).contains("mine/characteristic.csv"));
+    fs::remove_file(folder.join("mine/dye_density.csv")).unwrap();
+    assert!(message(&["--camera", "mine"]).contains("dye_density.csv: cannot be read"));
+}
