@@ -1,8 +1,7 @@
 //! A look from a data sheet of one's own: `cargo run --example own_stock [FOLDER]`.
 
-use std::{env, fs, path::PathBuf};
-
 use onelight::{Films, Process, SheetText, Stock, stock};
+use std::{env, fs, path::PathBuf};
 
 fn run() -> Result<(), Box<dyn std::error::Error>> {
     let usual = || concat!(env!("CARGO_MANIFEST_DIR"), "/examples/data/pushed-5207").into();
