@@ -181,6 +181,8 @@ impl fmt::Display for InterImage {
 pub struct InterImageEffect {
     strength: InterImage,
     curves: PerLayer<CharacteristicCurve>,
+    /// Densities of unexposed film, which every colour is measured from.
+    unexposed: PerLayer<f64>,
     grey: PerLayer<LogExposure>,
 }
 
@@ -188,7 +190,9 @@ impl InterImageEffect {
     /// The effect of this strength in a film whose grey card lies at `grey`.
     #[must_use]
     pub fn new(stock: &Stock, strength: InterImage, grey: PerLayer<LogExposure>) -> Self {
-        Self { strength, curves: stock.characteristic().map(Clone::clone), grey }
+        let curves = stock.characteristic().map(Clone::clone);
+        let unexposed = curves.as_ref().map(|curve| curve.density(LogExposure(f64::NEG_INFINITY)).0);
+        Self { strength, curves, unexposed, grey }
     }
 
     /// Its strength.
@@ -208,9 +212,8 @@ impl InterImageEffect {
     #[must_use]
     pub fn developed(&self, offset: f64) -> f64 {
         let offset = if offset.is_nan() { f64::NEG_INFINITY } else { offset };
-        let layers = self.curves.as_ref().zip_map(self.grey, |curve, grey| {
-            (curve.density(LogExposure(grey.0 + offset)).0 - curve.density(LogExposure(f64::NEG_INFINITY)).0).abs()
-        });
+        let at = self.curves.as_ref().zip_map(self.grey, |curve, grey| curve.density(LogExposure(grey.0 + offset)).0);
+        let layers = at.zip_map(self.unexposed, |density, unexposed| (density - unexposed).abs());
         layers.to_array().iter().sum::<f64>() / 3.0
     }
 
