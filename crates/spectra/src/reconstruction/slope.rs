@@ -6,7 +6,7 @@ use crate::built_in::BuiltInTable;
 use crate::error::{Error, ErrorKind};
 
 /// The smoothest reflectances that are nowhere negative: the quadratic programme of \[MallettYuksel2019\], solved once.
-/// A test solves it again.
+/// A test holds it to the conditions of optimality.
 pub(super) fn least_non_negative() -> Result<[Vec<f64>; 3], Error> {
     let table = BuiltInTable::parse("smooth_basis.csv", include_str!("../../data/smooth_basis.csv"))?;
     let column = |name| table.points(name).map(|points| points.y);
