@@ -14,7 +14,8 @@
 //! # Out of scope
 //! Parsing, checking, and every number that is not in a sheet or marked as derived.
 
-/// The text of the files of one stock. `onelight-film` reads the four that hold figures: `Stock::parse` of a `SheetText`.
+/// The text of the files of one stock. `onelight-film` reads those that hold figures: `Stock::parse` of a
+/// `SheetText`, and `Stock::with_figures`.
 ///
 /// ```
 /// let sheet = onelight_stocks::find("fuji-velvia-50").ok_or("no such stock")?;
@@ -33,12 +34,26 @@ pub struct DataSheet {
     pub characteristic_csv: &'static str,
     /// Spectral density of the three dyes, of D-min and of the neutral, over nm.
     pub dye_density_csv: &'static str,
+    /// Modulation transfer: cycles per mm; response of the three layers, or of all. `None` where none is digitised or it is not the
+    /// film's own.
+    pub mtf_csv: Option<&'static str>,
+    /// Diffuse rms granularity: log10 exposure; density and granularity of the three layers. `None` as above.
+    pub granularity_csv: Option<&'static str>,
     /// Where the figures come from, in words.
     pub source_md: &'static str,
 }
 
+macro_rules! figure {
+    ($id:literal, $file:literal, $figure:ident) => {
+        Some(include_str!(concat!("../", $id, "/", $file)))
+    };
+    ($id:literal, $file:literal) => {
+        None
+    };
+}
+
 macro_rules! sheets {
-    ($($id:literal)*) => {
+    ($($id:literal $($mtf:ident $($granularity:ident)?)?;)*) => {
         /// Every stock: negatives, reversal films, print films.
         pub static ALL: &[DataSheet] = &[$(DataSheet {
             id: $id,
@@ -46,32 +61,34 @@ macro_rules! sheets {
             sensitivity_csv: include_str!(concat!("../", $id, "/sensitivity.csv")),
             characteristic_csv: include_str!(concat!("../", $id, "/characteristic.csv")),
             dye_density_csv: include_str!(concat!("../", $id, "/dye_density.csv")),
+            mtf_csv: figure!($id, "mtf.csv" $(, $mtf)?),
+            granularity_csv: figure!($id, "granularity.csv" $($(, $granularity)?)?),
             source_md: include_str!(concat!("../", $id, "/SOURCE.md")),
         }),*];
     };
 }
 
 sheets! {
-    "kodak-5203"
-    "kodak-5207"
-    "kodak-5213"
-    "kodak-5219"
-    "kodak-5277"
-    "kodak-5248"
-    "kodak-portra-160"
-    "kodak-portra-400"
-    "kodak-ektar-100"
-    "kodak-gold-200"
-    "fuji-eterna-500"
-    "kodak-ektachrome-100"
-    "kodak-kodachrome-64"
-    "fuji-velvia-50"
-    "fuji-provia-100f"
-    "kodak-2383"
-    "kodak-2393"
-    "kodak-5386"
-    "fuji-3513di"
-    "fuji-3523xd"
+    "kodak-5203" mtf granularity;
+    "kodak-5207" mtf granularity;
+    "kodak-5213" mtf granularity;
+    "kodak-5219" mtf granularity;
+    "kodak-5277" mtf granularity;
+    "kodak-5248" mtf granularity;
+    "kodak-portra-160";
+    "kodak-portra-400" mtf;
+    "kodak-ektar-100" mtf;
+    "kodak-gold-200";
+    "fuji-eterna-500" mtf;
+    "kodak-ektachrome-100" mtf granularity;
+    "kodak-kodachrome-64" mtf;
+    "fuji-velvia-50";
+    "fuji-provia-100f" mtf;
+    "kodak-2383";
+    "kodak-2393";
+    "kodak-5386";
+    "fuji-3513di";
+    "fuji-3523xd";
 }
 
 /// The stock with this id, `None` if there is none.

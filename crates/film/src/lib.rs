@@ -5,6 +5,7 @@
 //! - [`CharacteristicCurve`]: density over log exposure; [`Densitometry`]: status M and A
 //! - [`InterImageEffect`]: layers that hold back each other's development
 //! - [`DyeModel`]: characteristic curves to amounts of dye; [`Dyes`]: amounts to spectral density
+//! - [`ModulationTransfer`], [`Granularity`]: what a sheet says of sharpness and grain
 //! - [`NumberTable`]: the comma-separated tables of a data sheet, with errors that name the line
 //!
 //! ```
@@ -33,18 +34,21 @@
 //! ```
 //!
 //! # Out of scope
-//! Printers and projectors, look-up tables, displays; grain and halation. Keys in square brackets are resolved in REFERENCES.md
+//! Printers and projectors, look-up tables, displays; pictures: `onelight-spatial` applies sharpness and grain. Keys in square brackets are resolved in REFERENCES.md
 //! at the top of the repository.
 
 mod amounts;
 mod curve;
 mod densitometry;
 mod dye;
+mod dye_densitometer;
 mod error;
 mod exposure;
+mod granularity;
 mod inter_image;
 mod layer;
 mod metering;
+mod modulation_transfer;
 mod printable;
 mod quantity;
 mod sensitivity;
@@ -56,10 +60,13 @@ pub use amounts::DyeModel;
 pub use curve::{AmountCurve, CharacteristicCurve, Direction};
 pub use densitometry::Densitometry;
 pub use dye::{DyeDensity, Dyes};
+pub use dye_densitometer::DyeDensitometer;
 pub use error::Error;
 pub use exposure::{Camera, ExposureMatrix, FrameBufferScale, Matching};
+pub use granularity::Granularity;
 pub use inter_image::{InterImage, InterImageEffect, InterImageOrigin};
 pub use layer::{LAYER_NAMES, PerLayer};
+pub use modulation_transfer::ModulationTransfer;
 pub use onelight_spectra::MID_GREY;
 pub use printable::printable;
 pub use quantity::{Density, DyeAmount, EXPOSURE_FLOOR, LogExposure};

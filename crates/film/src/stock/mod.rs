@@ -1,6 +1,7 @@
 //! A film as its data sheet describes it.
 
 mod facts;
+mod figures;
 mod sheet;
 
 use onelight_spectra::SpectralShape;
@@ -11,8 +12,10 @@ use crate::curve::CharacteristicCurve;
 use crate::densitometry::Densitometry;
 use crate::dye::{DyeDensity, Dyes};
 use crate::error::Error;
+use crate::granularity::Granularity;
 use crate::layer::PerLayer;
 use crate::metering::MID_GREY_LUX_S;
+use crate::modulation_transfer::ModulationTransfer;
 use crate::printable::printable;
 use crate::quantity::{Density, LogExposure};
 use crate::sensitivity::SpectralSensitivity;
@@ -118,6 +121,8 @@ pub struct Stock {
     dyes: PerLayer<DyeDensity>,
     d_min: Option<DyeDensity>,
     neutral: Option<DyeDensity>,
+    mtf: Option<PerLayer<ModulationTransfer>>,
+    granularity: Option<PerLayer<Granularity>>,
 }
 
 impl Stock {
@@ -154,6 +159,8 @@ impl Stock {
                 .try_map(|dye, _| DyeDensity::dye(dye_density.points("wavelength_nm", dye)?, sheet.dye_density.base))?,
             d_min: optional("d_min")?,
             neutral: optional("neutral")?,
+            mtf: None,
+            granularity: None,
             sheet,
         };
         if stock.kind() == StockKind::Negative && stock.d_min.is_none() {
@@ -264,6 +271,8 @@ impl Stock {
             (Some(self.sheet.dye_density.origin), "dyes"),
             (self.sheet.dye_density.d_min, "D-min"),
             (self.sheet.aim.as_ref().map(|aim| aim.origin), "aim"),
+            (self.sheet.mtf.as_ref().and_then(|mtf| mtf.origin), "modulation transfer"),
+            (self.sheet.granularity.as_ref().and_then(|granularity| granularity.origin), "granularity"),
         ];
         parts.into_iter().filter(|(origin, _)| *origin == Some(Origin::Derived)).map(|(_, what)| what).collect()
     }

@@ -33,6 +33,8 @@ pub(super) struct Sheet {
     pub(super) characteristic: CharacteristicSection,
     pub(super) dye_density: DyeSection,
     pub(super) aim: Option<AimSection>,
+    pub(super) mtf: Option<FigureSection>,
+    pub(super) granularity: Option<FigureSection>,
     pub(super) uncertainty: Uncertainty,
 }
 
@@ -69,6 +71,17 @@ pub(super) struct AimSection {
     pub(super) status_a: [f64; 3],
 }
 
+/// A figure that not every sheet has: `[mtf]`, `[granularity]`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FigureSection {
+    pub(super) origin: Option<Origin>,
+    /// Whose points the digitisation repeats, in words: such figures are refused.
+    pub(super) copied_from: Option<String>,
+    /// Lowest densities of the curves in the figure of granularity.
+    pub(super) d_min: Option<[f64; 3]>,
+}
+
 pub(super) fn parse(file: &str, text: &str) -> Result<Sheet, Error> {
     let problem = |line: u64, problem: String| Error::from(ErrorKind::Sheet { file: file.to_owned(), line, problem });
     if text.len() > MAX_BYTES {
@@ -90,6 +103,8 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Sheet, Error> {
         ("status_a", sheet.aim.as_ref().map(|aim| aim.status_a[1]), 0.0..=5.0),
         ("status_a", sheet.aim.as_ref().map(|aim| aim.status_a[2]), 0.0..=5.0),
     ];
+    let d_min = sheet.granularity.as_ref().and_then(|figure| figure.d_min).unwrap_or_default();
+    let numbers = numbers.into_iter().chain(d_min.map(|d| ("d_min", Some(d), 0.0..=5.0)));
     for (name, value, allowed) in numbers {
         if let Some(value) = value
             && !allowed.contains(&value)
