@@ -5,8 +5,10 @@ The folder holds the files and probes.txt: a first line "# r g b FILE FILE ...",
 scene-linear input and our output for each FILE, three numbers each. A FILE may be a .clf, a .cube, or a .spi3d; beside
 the last lies NAME_spi3d.ocio, the configuration with its shaper, through which it is applied.
 
+OpenColorIO's shaders are compiled and run too, and compared with OpenColorIO on the processor.
+
 Prints the largest difference per file. Exit status 1 if one is above the tolerance or not finite.
-Needs opencolorio 2 and numpy; without them it says "skipped", and fails only with --require.
+Needs opencolorio 2, numpy and moderngl; without them it says "skipped", and fails only with --require.
 """
 
 import argparse
@@ -46,16 +48,23 @@ def processor(path):
     return ocio.Config.CreateRaw().getProcessor(transform)
 
 
-def apply(path, inputs):
-    pixels = inputs.copy()
-    processor(path).getDefaultCPUProcessor().applyRGB(pixels)
-    return pixels
+def worst(name, found, expected, inputs):
+    """Prints the largest difference and returns it."""
+    difference = numpy.abs(found - expected).max(axis=1)
+    difference = numpy.where(numpy.isnan(difference), numpy.inf, difference)
+    at = int(difference.argmax())
+    print(
+        f"{name}: largest difference {difference[at]:.2e} over {len(inputs)} colours,"
+        f" at {' '.join(f'{v:g}' for v in inputs[at])}"
+    )
+    return difference[at]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=pathlib.Path, help="folder with probes.txt and the files it names")
     parser.add_argument("--tolerance", type=float, default=2e-4, help="largest difference allowed (default 2e-4)")
+    parser.add_argument("--shader-tolerance", type=float, default=1e-4, help="the same for the shader (default 1e-4)")
     parser.add_argument("--require", action="store_true", help="fail where opencolorio or numpy is missing")
     arguments = parser.parse_args()
     if missing:
@@ -64,21 +73,19 @@ def main():
 
     inputs, outputs = read_probes(arguments.folder / "probes.txt")
     finite = numpy.isfinite(inputs).all(axis=1)
+    inputs = inputs[finite]
     failed = False
     # OpenColorIO keeps files it has read by their path: fresh names, so that no older file answers.
     with tempfile.TemporaryDirectory() as fresh:
         for name, ours in outputs.items():
             for part in arguments.folder.glob(f"{pathlib.Path(name).stem}*"):
                 shutil.copy(part, fresh)
-            theirs = apply(pathlib.Path(fresh) / name, inputs)
-            difference = numpy.abs(theirs - ours)[finite].max(axis=1)
-            difference = numpy.where(numpy.isnan(difference), numpy.inf, difference)
-            worst = int(difference.argmax())
-            failed |= not difference[worst] <= arguments.tolerance
-            print(
-                f"{name}: largest difference {difference[worst]:.2e} over {finite.sum()} colours,"
-                f" at {' '.join(f'{v:g}' for v in inputs[finite][worst])}"
-            )
+            used = processor(pathlib.Path(fresh) / name)
+            theirs = inputs.copy()
+            used.getDefaultCPUProcessor().applyRGB(theirs)
+            failed |= not worst(name, theirs, ours[finite], inputs) <= arguments.tolerance
+            shaded, renderer = shader.apply(used, inputs)
+            failed |= not worst(f"{name} by {renderer}", shaded, theirs, inputs) <= arguments.shader_tolerance
     return 1 if failed else 0
 
 
@@ -86,6 +93,8 @@ missing = None
 try:
     import numpy
     import PyOpenColorIO as ocio
+
+    import shader
 except ImportError as error:
     missing = error.name or str(error)
 

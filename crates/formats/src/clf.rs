@@ -13,7 +13,7 @@ use op::Op;
 ///
 /// | Step | Operations |
 /// |---|---|
-/// | input | `Range` ±1e30, `Matrix`, `Range` 0 to 1e30; without a matrix only the second range |
+/// | input | `Range` ±1e16, `Matrix`, `Range` 0 to 1e16; without a matrix only the second range |
 /// | exposure | `Matrix`, `Range` from 1e-12, `Log` of base 2 scaled to the curves' domain, `LUT1D` |
 /// | mix, where there is one | `Matrix` with offset, scaled to the second curves' domain, `LUT1D` |
 /// | table | `LUT3D` |
@@ -21,7 +21,7 @@ use op::Op;
 ///
 /// All numbers are 32-bit floats to the program that reads them (`32f`). The first range lets no infinity reach a
 /// matrix, where it would become NaN; NaN in a colour reads as the lower end of that range. With an input matrix that is
-/// -1e30, whose effect on the other channels differs from [`onelight_lut::StructuredLut`], where NaN counts as 0.
+/// -1e16, whose effect on the other channels differs from [`onelight_lut::StructuredLut`], where NaN counts as 0.
 ///
 /// Reading takes the operations `Matrix`, `Range`, `Log`, `Exponent`, `LUT1D` and `LUT3D` in any order and of every style,
 /// in floating-point depths. `ASC_CDL`, integer depths, half-float domains and raw halfs are refused by name. What is read

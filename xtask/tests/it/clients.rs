@@ -1,7 +1,7 @@
-//! Programs that load our files give what we give: OpenColorIO and ffmpeg.
+//! Programs that load our files give what we give: OpenColorIO, on the processor and as a shader, and ffmpeg.
 //!
 //! Where a program is not installed its test says so and passes; `ONELIGHT_REQUIRE_CLIENTS=1` makes that a failure.
-//! `ONELIGHT_PYTHON` names a Python that has `opencolorio` and `numpy`.
+//! `ONELIGHT_PYTHON` names a Python that has `opencolorio`, `numpy` and `moderngl`.
 
 use std::fmt::Write as _;
 use std::fs::{self, File};

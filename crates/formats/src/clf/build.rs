@@ -2,9 +2,16 @@ use super::ClfProcess;
 use super::op::{Direction, ExponentStyle, LogCurve, Op, Power, Range};
 use crate::error::{Error, Kind};
 use onelight_lut::{
-    Decode, Domain, IDENTITY, Interpolation, LOG_FLOOR, Lut1d, Lut3d, Mix, PlainLut, PowerCoding, Rows, SCENE_MAX,
-    ShaperKind, StructuredLut,
+    Decode, Domain, IDENTITY, Interpolation, LOG_FLOOR, Lut1d, Lut3d, Mix, PlainLut, PowerCoding, Rows, ShaperKind,
+    StructuredLut,
 };
+
+/// The brightest light that a file's ranges let through.
+///
+/// OpenColorIO writes bounds into the text of its shaders and puts a point after those that have none, so one of 1e17 or more
+/// becomes `1e+17.`, which no compiler of shaders takes. Film is black or clear 40 stops below this, and powers of ten up to
+/// 1e22 are exact.
+const RANGE_MAX: f64 = 1e16;
 
 impl ClfProcess {
     /// A structured LUT with its matrices and curves, so that nothing is needed beside the file.
@@ -14,7 +21,7 @@ impl ClfProcess {
     /// None that a [`StructuredLut`] can cause today; the tables are checked once more.
     pub fn from_structured(lut: &StructuredLut) -> Result<Self, Error> {
         let parts = lut.parts();
-        let max = f64::from(SCENE_MAX);
+        let max = RANGE_MAX;
         let mut ops = Vec::new();
         if parts.input != IDENTITY {
             ops.push(Op::Range(Range::clamp(-max, max)));
