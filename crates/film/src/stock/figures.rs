@@ -122,7 +122,7 @@ mod tests {
             counts[0] += usize::from(f.mtf_csv.is_some());
             counts[1] += usize::from(f.granularity_csv.is_some());
         }
-        assert_eq!(counts, [12, 7]);
+        assert_eq!(counts, [25, 7]);
     }
 
     #[test]

@@ -2,11 +2,9 @@
 
 use onelight::lut::{DirectForm, SceneSampler, Shaper, bake, deviation};
 use onelight::spectra::nalgebra::Vector3;
-use onelight::{
-    Aim, DirectSettings, FilmProcess, Nodes, Printing, Reference, StockKind, WorkingSpace, stock, stock_ids,
-};
+use onelight::{Aim, DirectSettings, FilmProcess, Nodes, Printing, Reference, WorkingSpace};
 
-use crate::{compiled, film, films, process};
+use crate::{compiled, film, films, films_once, process};
 
 /// Mean and largest difference on colours of all exposures.
 fn measured(film: &Reference, direct: &DirectForm) -> (f64, f64) {
@@ -73,11 +71,7 @@ fn more_exponentials_come_nearer() {
 
 #[test]
 fn greys_get_no_darker_with_more_light_on_any_film() {
-    let of_kind = |kind| stock_ids().filter(move |id| stock(id).unwrap().kind() == kind);
-    let pairs =
-        of_kind(StockKind::Negative).flat_map(|camera| of_kind(StockKind::Print).map(move |p| (camera, Some(p))));
-    let mut all = 0;
-    for (camera, print) in of_kind(StockKind::Reversal).map(|camera| (camera, None)).chain(pairs) {
+    for (camera, print) in films_once() {
         let print = print.map(Printing::on);
         let film = compiled(&FilmProcess { camera: camera.into(), print, ..Default::default() });
         let direct = film.direct(&settings(Nodes::Counts { projection: 8, duplication: 4 })).unwrap();
@@ -91,9 +85,7 @@ fn greys_get_no_darker_with_more_light_on_any_film() {
         let falls = wedge.windows(2).position(|pair| pair[1] < pair[0] - 1e-5);
         assert_eq!(falls, None, "{camera}");
         assert!(measured(&film, &direct).1 < 0.4, "{camera}: {:?}", measured(&film, &direct));
-        all += 1;
     }
-    assert_eq!(all, 59);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, Mutex, OnceLock};
 
 use onelight::lut::DirectForm;
-use onelight::{FilmProcess, Process, Reference};
+use onelight::{FilmProcess, Process, Reference, StockKind, stock, stock_ids};
 
 /// Made when it is first asked for; others wait for it.
 type Slot<T> = Arc<OnceLock<Arc<T>>>;
@@ -44,4 +44,16 @@ pub(crate) fn printed(camera: &str, turn: impl FnOnce(&mut onelight::Printing)) 
     let mut process = process(camera);
     turn(process.print.as_mut().unwrap());
     process
+}
+
+/// Every camera film once, negatives on the print films in turn, and every print film under the usual negative.
+pub(crate) fn films_once() -> Vec<(&'static str, Option<&'static str>)> {
+    let of_kind = |kind| stock_ids().filter(move |id| stock(id).unwrap().kind() == kind);
+    let prints: Vec<&str> = of_kind(StockKind::Print).collect();
+    let usual = prints.iter().map(|print| (onelight::DEFAULT_CAMERA, Some(*print)));
+    let in_turn = of_kind(StockKind::Negative)
+        .filter(|camera| *camera != onelight::DEFAULT_CAMERA)
+        .zip(prints.iter().cycle())
+        .map(|(camera, print)| (camera, Some(*print)));
+    of_kind(StockKind::Reversal).map(|camera| (camera, None)).chain(usual).chain(in_turn).collect()
 }

@@ -7,22 +7,21 @@ use onelight::printing::{
 use onelight::spectra::{RgbSpace, SpectralShape};
 use onelight::{
     Aim, ColourSpaces, DyeModel, FilmProcess, HeatGlass, Infrared, Matching, Printing, Process, Projector, Reference,
-    StockKind, Tail, WorkingSpace, stock, stock_ids,
+    Tail, WorkingSpace, stock,
 };
 
-use crate::{compiled, film, process};
+use crate::{compiled, film, films_once, process};
 
-/// Every camera film, negatives on every print.
+/// Every camera film and every print film at least once: `cargo xtask stocks --check` compiles all pairs.
 fn sensible() -> Vec<FilmProcess> {
-    let of_kind = |kind| stock_ids().filter(move |id| stock(id).unwrap().kind() == kind);
-    let mut all: Vec<FilmProcess> = of_kind(StockKind::Reversal).map(process).collect();
-    for camera in of_kind(StockKind::Negative) {
-        for print in of_kind(StockKind::Print) {
-            all.push(FilmProcess { camera: camera.into(), print: Some(Printing::on(print)), ..Default::default() });
-        }
-    }
-    assert_eq!(all.len(), 4 + 11 * 5);
-    all
+    films_once()
+        .into_iter()
+        .map(|(camera, print)| FilmProcess {
+            camera: camera.into(),
+            print: print.map(Printing::on),
+            ..Default::default()
+        })
+        .collect()
 }
 
 #[test]
