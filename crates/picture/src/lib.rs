@@ -55,7 +55,7 @@
 //! `exr`, `png` and `tiff`, all on by default: the formats that are built.
 //!
 //! # Out of scope
-//! Deep data, subsampled channels, HTJ2K; CMYK, palette and JPEG-compressed TIFF; ICC profiles; animation; writing TIFF;
+//! Deep data, subsampled channels, HTJ2K; CMYK and JPEG-compressed TIFF, camera raw; ICC profiles; animation; writing TIFF;
 //! conversion between colour spaces; paths.
 #![cfg_attr(
     not(all(feature = "exr", feature = "png", feature = "tiff")),
@@ -99,9 +99,15 @@ mod png_read;
 mod png_write;
 mod reader;
 #[cfg(feature = "tiff")]
+mod tiff_directory;
+#[cfg(feature = "tiff")]
+mod tiff_header;
+#[cfg(feature = "tiff")]
+mod tiff_pages;
+#[cfg(feature = "tiff")]
 mod tiff_read;
 #[cfg(feature = "tiff")]
-mod tiff_tags;
+mod tiff_unpack;
 mod whole_picture;
 
 pub use band::{Band, BandView, ReadingMemory, RowMut};

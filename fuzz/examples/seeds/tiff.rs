@@ -45,7 +45,7 @@ pub(super) fn files() -> Result<Vec<Seed>, Fault> {
         ("straight", ByHand { samples: 4, extra: Some(2), ..ByHand::RGB8 }),
         ("grey-alpha", ByHand { samples: 2, extra: Some(2), ..ByHand::RGB8 }),
         ("refused-signed", ByHand { format: 2, ..ByHand::RGB8 }),
-        ("refused-tiled-planes", ByHand { planes: true, tiles: true, ..ByHand::RGB8 }),
+        ("tiled-planes", ByHand { planes: true, tiles: true, ..ByHand::RGB8 }),
     ];
     files.extend(by_hand.into_iter().map(|(name, file)| (format!("{name}.tif"), file.bytes())));
     Ok(files)

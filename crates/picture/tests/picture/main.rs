@@ -7,6 +7,7 @@ mod damage;
 mod exr;
 mod plain;
 mod refusals;
+mod tiff;
 
 use std::io::{Cursor, ErrorKind};
 
