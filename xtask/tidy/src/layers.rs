@@ -52,7 +52,12 @@ const LAYERS: [Layer; 15] = [
     },
     Layer { folder: "crates/formats", allowed: &["onelight-lut"], ..LIBRARY },
     Layer { folder: "crates/picture", foreign: &["film", "emulsion", "stock", "printer"], ..LIBRARY },
-    Layer { folder: "crates/spatial", foreign: &["wgpu", "lut"], ..LIBRARY },
+    Layer {
+        folder: "crates/spatial",
+        allowed: &["onelight-spectra", "onelight-film"],
+        foreign: &["wgpu", "lut", "printer", "projector", "kodak", "fuji"],
+        ..LIBRARY
+    },
     Layer { folder: "crates/gpu", allowed: &["onelight-lut"], wgpu: Wgpu::Always, ..LIBRARY },
     Layer { folder: "stocks", ..LIBRARY },
     Layer {

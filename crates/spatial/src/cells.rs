@@ -1,0 +1,242 @@
+//! Cells: blocks of pixels counted from the frame's origin, their means, and the way back to pixels.
+
+use crate::blur::{LANES, across_rows, along_row, copy_padded, lanes};
+use crate::taps::Taps;
+
+/// Cells along one axis of a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct CellAxis {
+    /// Pixels in a cell.
+    size: usize,
+    /// Where the picture begins in the frame.
+    offset: i64,
+    /// Pixels of the picture.
+    pixels: usize,
+    /// The first cell that holds a pixel, counted from the frame's origin.
+    first: i64,
+    /// Cells that hold pixels.
+    pub(crate) count: usize,
+}
+
+impl CellAxis {
+    pub(crate) fn new(size: usize, offset: i32, pixels: usize) -> Self {
+        let (size, offset) = (size.max(1), i64::from(offset));
+        let of = |pixel: i64| (pixel + offset).div_euclid(size as i64);
+        let first = of(0);
+        Self { size, offset, pixels, first, count: (of(pixels as i64 - 1) - first) as usize + 1 }
+    }
+
+    /// Pixels in a cell.
+    pub(crate) fn size(&self) -> usize {
+        self.size
+    }
+
+    /// The picture's pixels in a cell.
+    pub(crate) fn pixels_of(&self, cell: usize) -> std::ops::Range<usize> {
+        let start = (self.first + cell as i64) * self.size as i64 - self.offset;
+        let inside = |pixel: i64| pixel.clamp(0, self.pixels as i64) as usize;
+        inside(start)..inside(start + self.size as i64)
+    }
+
+    /// The cell that holds a pixel of the picture.
+    pub(crate) fn cell_of(&self, pixel: usize) -> usize {
+        ((pixel as i64 + self.offset).div_euclid(self.size as i64) - self.first) as usize
+    }
+
+    /// The two cells between whose centres a pixel lies, and how far towards the second; at an edge twice the same.
+    pub(crate) fn between(&self, pixel: usize) -> (usize, usize, f32) {
+        let size = self.size as i64;
+        // In half pixels: the pixel's centre from the first cell's centre.
+        let place = 2 * (pixel as i64 + self.offset) + 1 - size;
+        let lower = place.div_euclid(2 * size);
+        let t = place.rem_euclid(2 * size) as f32 / (2 * size) as f32;
+        let inside = |cell: i64| (cell - self.first).clamp(0, self.count as i64 - 1) as usize;
+        (inside(lower), inside(lower + 1), t)
+    }
+
+    /// Variance, in square pixels, that the mean over cells and the way back add to a blur.
+    pub(crate) fn own_variance(&self) -> f64 {
+        let size = self.size as f64;
+        let phases = 2 * self.size as i64;
+        let bilinear = (0..self.size as i64).map(|i| {
+            let t = (2 * i + 1 - self.size as i64).rem_euclid(phases) as f64 / phases as f64;
+            t * (1.0 - t) * size * size
+        });
+        (size * size - 1.0) / 12.0 + bilinear.sum::<f64>() / size
+    }
+}
+
+/// Taps over cells for a Gaussian of `sigma` pixels, what cells blur by themselves taken off.
+pub(crate) fn cell_taps(axis: &CellAxis, sigma: f64) -> Taps {
+    let left = (sigma * sigma - axis.own_variance()).max(0.0).sqrt();
+    Taps::gaussian(left / axis.size as f64)
+}
+
+/// Rows of means of cells.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct CellRows {
+    pub(crate) width: usize,
+    /// Which rows of cells these are.
+    pub(crate) rows: std::ops::Range<usize>,
+    pub(crate) means: Vec<f32>,
+}
+
+impl CellRows {
+    pub(crate) fn new(width: usize, rows: std::ops::Range<usize>) -> Self {
+        Self { width, means: vec![0.0; width * rows.len()], rows }
+    }
+
+    /// The nearest row that is held.
+    pub(crate) fn row(&self, y: isize) -> &[f32] {
+        let y = y.clamp(self.rows.start as isize, self.rows.end as isize - 1) as usize - self.rows.start;
+        &self.means[y * self.width..(y + 1) * self.width]
+    }
+
+    pub(crate) fn row_mut(&mut self, y: usize) -> &mut [f32] {
+        let y = y - self.rows.start;
+        &mut self.means[y * self.width..(y + 1) * self.width]
+    }
+
+    /// These rows blurred, with those about them; beyond the first and last row held they repeat, as the cells at the ends of a row do.
+    pub(crate) fn blurred(&self, x: &[f32], y: &[f32], rows: std::ops::Range<usize>) -> Self {
+        let (first, last) = (rows.start.saturating_sub(y.len()), rows.end + y.len());
+        let mut across = Self::new(self.width, first.max(self.rows.start)..last.min(self.rows.end));
+        let mut padded = vec![0.0; self.width + 2 * x.len()];
+        for row in across.rows.clone() {
+            copy_padded(self.row(row as isize), -(x.len() as isize), &mut padded);
+            along_row(x, &padded, across.row_mut(row));
+        }
+        let mut blurred = Self::new(self.width, rows);
+        for row in blurred.rows.clone() {
+            let (of, out) = (|distance: isize| across.row(row as isize + distance), blurred.row_mut(row));
+            for start in (0..out.len()).step_by(LANES) {
+                let len = LANES.min(out.len() - start);
+                let (own, sum) = (lanes(&of(0)[start..], len), across_rows(y, of, start, len));
+                for i in 0..len {
+                    out[start + i] = own[i] + sum[i];
+                }
+            }
+        }
+        blurred
+    }
+}
+
+/// Sums rows of pixels until they fill a row of cells, as differences to first pixels: uniform cells have exactly their own mean.
+#[derive(Debug, Clone)]
+pub(crate) struct CellSums {
+    first: Vec<f32>,
+    sums: Vec<f32>,
+    rows: usize,
+}
+
+impl CellSums {
+    pub(crate) fn new(pixels: usize) -> Self {
+        Self { first: vec![0.0; pixels], sums: vec![0.0; pixels], rows: 0 }
+    }
+
+    /// Adds a row of pixels.
+    pub(crate) fn add(&mut self, row: &[f32]) {
+        if self.rows == 0 {
+            self.first.copy_from_slice(row);
+            self.sums.fill(0.0);
+        } else {
+            for ((sum, first), v) in self.sums.iter_mut().zip(&self.first).zip(row) {
+                *sum += v - first;
+            }
+        }
+        self.rows += 1;
+    }
+
+    /// Writes the means of the cells, and starts again.
+    pub(crate) fn take(&mut self, axis: &CellAxis, means: &mut [f32]) {
+        for (cell, mean) in means.iter_mut().enumerate() {
+            let pixels = axis.pixels_of(cell);
+            let first = self.first[pixels.start];
+            let mut sum = 0.0;
+            for x in pixels.clone() {
+                sum += self.sums[x] + self.rows as f32 * (self.first[x] - first);
+            }
+            *mean = (first + sum / (self.rows * pixels.len()) as f32).max(0.0);
+        }
+        self.rows = 0;
+    }
+}
+
+/// A row of cells brought to pixels: for each pixel two cells and a share.
+#[derive(Debug, Clone)]
+pub(crate) struct Expansion(Vec<(u32, u32, f32)>);
+
+impl Expansion {
+    pub(crate) fn new(axis: &CellAxis) -> Self {
+        let between = |pixel| {
+            let (a, b, t) = axis.between(pixel);
+            (a as u32, b as u32, t)
+        };
+        Self((0..axis.pixels).map(between).collect())
+    }
+
+    /// The pixels from `start` of the row.
+    pub(crate) fn expand(&self, cells: &[f32], start: usize, out: &mut [f32]) {
+        for (out, (a, b, t)) in out.iter_mut().zip(&self.0[start..]) {
+            let (a, b) = (cells[*a as usize], cells[*b as usize]);
+            *out = a + t * (b - a);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_are_counted_from_the_frames_origin() {
+        let whole = CellAxis::new(4, 0, 30);
+        let crop = CellAxis::new(4, 10, 20);
+        assert_eq!((whole.count, crop.count), (8, 6));
+        assert_eq!(crop.pixels_of(0), 0..2, "the crop's first cell holds two of its pixels");
+        assert_eq!(whole.pixels_of(3), 12..16);
+        assert_eq!(crop.pixels_of(1), 2..6);
+        for pixel in 3..19 {
+            let ((a, b, t), (c, d, u)) = (whole.between(pixel + 10), crop.between(pixel));
+            if b < 7 {
+                assert_eq!((a, b, t), (c + 2, d + 2, u), "{pixel}");
+            }
+            assert_eq!(whole.cell_of(pixel + 10), crop.cell_of(pixel) + 2);
+        }
+        let negative = CellAxis::new(4, -3, 5);
+        assert_eq!((negative.count, negative.pixels_of(0), negative.pixels_of(1)), (2, 0..3, 3..5));
+    }
+
+    #[test]
+    fn cells_of_one_pixel_change_nothing() {
+        let axis = CellAxis::new(1, 5, 9);
+        assert_eq!(axis.own_variance(), 0.0);
+        assert!((0..9).all(|pixel| axis.between(pixel) == (pixel, (pixel + 1).min(8), 0.0)));
+    }
+
+    #[test]
+    fn a_gaussian_over_cells_has_the_variance_asked_for() {
+        for size in [2usize, 4, 7] {
+            let pixels = 4001;
+            let axis = CellAxis::new(size, 0, pixels);
+            let sigma = 2.1 * size as f64;
+            let taps = cell_taps(&axis, sigma).rounded();
+            // The mean over all phases of a point's image.
+            let mut variance = 0.0;
+            for phase in 0..size {
+                let mut row = vec![0.0; pixels];
+                row[2000 + phase] = 1.0;
+                let mut sums = CellSums::new(pixels);
+                sums.add(&row);
+                let mut cells = CellRows::new(axis.count, 0..1);
+                sums.take(&axis, cells.row_mut(0));
+                let blurred = cells.blurred(&taps, &[], 0..1);
+                let mut out = vec![0.0; pixels];
+                Expansion::new(&axis).expand(blurred.row(0), 0, &mut out);
+                let square = |(x, v): (usize, &f32)| (x as f64 - (2000 + phase) as f64).powi(2) * f64::from(*v);
+                variance += out.iter().enumerate().map(square).sum::<f64>() / size as f64;
+            }
+            assert!((variance.sqrt() / sigma - 1.0).abs() < 0.01, "{size}: {} for {sigma}", variance.sqrt());
+        }
+    }
+}

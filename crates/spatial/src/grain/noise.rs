@@ -1,0 +1,171 @@
+//! White noise that is a function of place, frame and seed: integers, the same on every machine and in every order.
+
+use super::correlation::Correlation;
+
+/// Pixels hashed together: whole vectors of every machine.
+pub(crate) const LANES: usize = 16;
+/// Standard deviation of [`white`]: the root of 2048^2 * 8 + 4 (1024^2 - 1) / 12.
+pub(crate) const WHITE_SIGMA: f64 = 5_822.710_451_327_629;
+/// Bits that are dropped between the taps of the two axes, so that no sum leaves 32 bits: at worst 33791 times the taps' magnitudes
+/// squared, 1346^2, over 64.
+pub(crate) const DROPPED_BITS: u32 = 6;
+
+/// Where and when noise is looked up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct NoiseKey {
+    pub(crate) frame: u32,
+    pub(crate) seed: u32,
+}
+
+/// Four numbers hashed together: pcg4d of \[Jarzynski2020\], and one more fold, without which lines show in the picture.
+#[inline(always)]
+pub(crate) fn hash(v: [u32; 4]) -> [u32; 4] {
+    let [mut x, mut y, mut z, mut w] = v.map(|v| v.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
+    x = x.wrapping_add(y.wrapping_mul(w));
+    y = y.wrapping_add(z.wrapping_mul(x));
+    z = z.wrapping_add(x.wrapping_mul(y));
+    w = w.wrapping_add(y.wrapping_mul(z));
+    [x, y, z, w] = [x ^ (x >> 16), y ^ (y >> 16), z ^ (z >> 16), w ^ (w >> 16)];
+    x = x.wrapping_add(y.wrapping_mul(w));
+    y = y.wrapping_add(z.wrapping_mul(x));
+    z = z.wrapping_add(x.wrapping_mul(y));
+    w = w.wrapping_add(y.wrapping_mul(z));
+    [x ^ (x >> 16), y ^ (y >> 16), z ^ (z >> 16), w ^ (w >> 16)]
+}
+
+/// A number for each layer, of mean 0 and nearly normal: bits of one word counted, filled up by ten bits of another.
+#[inline(always)]
+pub(crate) fn white(x: u32, y: u32, key: NoiseKey) -> [i32; 3] {
+    let [a, b, c, fine] = hash([x, y, key.frame, key.seed]);
+    let number = |bits: u32, fine: u32| 2048 * (bits.count_ones() as i32 - 16) + 2 * (fine & 1023) as i32 - 1023;
+    [number(a, fine), number(b, fine >> 10), number(c, fine >> 20)]
+}
+
+/// [`white`] of the pixels from `x` on.
+#[inline(always)]
+pub(crate) fn white_row(x: u32, y: u32, key: NoiseKey, [red, green, blue]: [&mut [i32]; 3]) {
+    let lanes = red.chunks_mut(LANES).zip(green.chunks_mut(LANES)).zip(blue.chunks_mut(LANES));
+    for (block, ((red, green), blue)) in lanes.enumerate() {
+        let start = x.wrapping_add((block * LANES) as u32);
+        let mut numbers = [[0; LANES]; 3];
+        let [reds, greens, blues] = &mut numbers;
+        for (i, ((r, g), b)) in reds.iter_mut().zip(greens).zip(blues).enumerate() {
+            [*r, *g, *b] = white(start.wrapping_add(i as u32), y, key);
+        }
+        red.copy_from_slice(&numbers[0][..red.len()]);
+        green.copy_from_slice(&numbers[1][..green.len()]);
+        blue.copy_from_slice(&numbers[2][..blue.len()]);
+    }
+}
+
+/// One row of white noise, correlated along it: `noise` begins `radius` pixels before `out`.
+#[inline(always)]
+pub(crate) fn correlate_row(taps: &[i32], noise: &[i32], out: &mut [i32]) {
+    let radius = taps.len() - 1;
+    let half = 1 << (DROPPED_BITS - 1);
+    for (block, out) in out.chunks_mut(LANES).enumerate() {
+        let start = block * LANES + radius;
+        let len = out.len();
+        let mut sum = [half; LANES];
+        add_lanes(&mut sum, taps[0], &noise[start..], len);
+        for (distance, &tap) in (1..).zip(&taps[1..]) {
+            add_lanes(&mut sum, tap, &noise[start - distance..], len);
+            add_lanes(&mut sum, tap, &noise[start + distance..], len);
+        }
+        for (out, sum) in out.iter_mut().zip(sum) {
+            *out = sum >> DROPPED_BITS;
+        }
+    }
+}
+
+/// Rows of such sums, correlated across them; the middle one is the pixel's own.
+#[inline(always)]
+pub(crate) fn correlate_rows<'a>(taps: &[i32], row: impl Fn(isize) -> &'a [i32], out: &mut [i32]) {
+    let width = out.len();
+    for (block, out) in out.chunks_mut(LANES).enumerate() {
+        let start = block * LANES;
+        let len = out.len();
+        let mut sum = [0; LANES];
+        add_lanes(&mut sum, taps[0], &row(0)[start..width], len);
+        for (distance, &tap) in (1..).zip(&taps[1..]) {
+            add_lanes(&mut sum, tap, &row(-distance)[start..width], len);
+            add_lanes(&mut sum, tap, &row(distance)[start..width], len);
+        }
+        out.copy_from_slice(&sum[..len]);
+    }
+}
+
+#[inline(always)]
+fn add_lanes(sum: &mut [i32; LANES], tap: i32, row: &[i32], len: usize) {
+    if let Some(row) = row.first_chunk::<LANES>() {
+        for i in 0..LANES {
+            sum[i] = sum[i].wrapping_add(tap.wrapping_mul(row[i]));
+        }
+    } else {
+        for (sum, number) in sum.iter_mut().zip(&row[..len]) {
+            *sum = sum.wrapping_add(tap.wrapping_mul(*number));
+        }
+    }
+}
+
+/// What the integer field is divided by to have standard deviation 1.
+pub(crate) fn field_sigma(x: &Correlation, y: &Correlation) -> f64 {
+    WHITE_SIGMA * x.gain() * y.gain() / f64::from(1 << DROPPED_BITS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_numbers_of_an_independent_implementation() {
+        assert_eq!(hash([1, 2, 3, 4]), [908_262_196, 4_044_652_748, 3_775_953_455, 45_698_710]);
+        let first = NoiseKey { frame: 0, seed: 0 };
+        let expected = [[927, 3789, -411], [6983, -3403, 14407], [-5079, 7459, -2793], [-3791, 7797, 3783]];
+        for (x, expected) in (0..).zip(expected) {
+            assert_eq!(white(x, 0, first), expected);
+        }
+        assert_eq!(white(5, 9, NoiseKey { frame: 3, seed: 1 }), [6241, 1297, -1575]);
+        assert_eq!(white(4095, 2159, NoiseKey { frame: 1000, seed: 7 }), [-1197, -6137, 1291]);
+    }
+
+    #[test]
+    fn no_sum_leaves_32_bits() {
+        let largest = 2048 * 16 + 1023;
+        for pitch in [0.75, 1.0, 2.0, 6.0, 12.0, 24.0] {
+            for cloud in [0.5, 1.5, 2.9, 5.84] {
+                let gain = Correlation::new(pitch, cloud).largest_gain();
+                let after_x = (largest * gain + 32) >> DROPPED_BITS;
+                assert!(largest * gain < i64::from(i32::MAX), "{pitch} {cloud}: {gain}");
+                assert!(after_x * gain < i64::from(i32::MAX), "{pitch} {cloud}: {gain}");
+            }
+        }
+    }
+
+    #[test]
+    fn white_noise_is_white() {
+        // Mean 0, the variance, no correlation between layers, neighbours, frames and seeds: within 4 standard errors of 2^18 numbers.
+        let side = 512;
+        let plane = |key: NoiseKey| -> Vec<[f64; 3]> {
+            (0..side * side).map(|i| white(i % side, i / side, key).map(|v| f64::from(v) / WHITE_SIGMA)).collect()
+        };
+        let here = plane(NoiseKey { frame: 5, seed: 3 });
+        let count = here.len() as f64;
+        let limit = 4.0 / count.sqrt();
+        let mean = |pairs: &mut dyn Iterator<Item = f64>| pairs.sum::<f64>() / count;
+        for k in 0..3 {
+            assert!(mean(&mut here.iter().map(|z| z[k])).abs() < limit);
+            assert!((mean(&mut here.iter().map(|z| z[k] * z[k])) - 1.0).abs() < 1.5 * limit);
+            let kurtosis = mean(&mut here.iter().map(|z| z[k].powi(4))) - 3.0;
+            assert!((kurtosis + 0.06).abs() < 0.05, "{kurtosis}");
+            assert!(mean(&mut here.iter().map(|z| z[k] * z[(k + 1) % 3])).abs() < limit);
+            for lag in [1, 2, 511, 512, 513] {
+                assert!(mean(&mut here.iter().zip(&here[lag..]).map(|(a, b)| a[k] * b[k])).abs() < limit, "lag {lag}");
+            }
+        }
+        for other in [NoiseKey { frame: 6, seed: 3 }, NoiseKey { frame: 5, seed: 4 }, NoiseKey { frame: 3, seed: 5 }] {
+            let there = plane(other);
+            assert!(mean(&mut here.iter().zip(&there).map(|(a, b)| a[1] * b[1])).abs() < limit, "{other:?}");
+        }
+    }
+}

@@ -1,0 +1,258 @@
+use rayon::prelude::*;
+
+use super::{Halation, PointSpread};
+use crate::blur::{LANES, copy_padded, lanes};
+use crate::cells::{CellAxis, CellRows, CellSums, Expansion, cell_taps};
+use crate::error::{Error, ErrorKind};
+use crate::frame::Frame;
+use crate::planes::{Planes, believed};
+
+/// Cells in um: finer where the antihalation layer does not blur the ring.
+const CELL_UM: f64 = 50.0;
+const FINE_CELL_UM: f64 = 30.0;
+const FINE_BELOW_DENSITY: f64 = 0.3;
+/// Points along each side of a cell at which the ring's inside is summed.
+const POINTS: i32 = 12;
+
+/// Collects the exposure of a whole picture in cells of about 50 um, from which halation is made before any row can be finished.
+///
+/// ```
+/// use onelight_spatial::{FilmFormat, Frame, Halation, HalationCells, HalationSettings, Planes};
+/// let frame = Frame::new([64, 64], FilmFormat::Super35.pitch(2048, 1.0)?)?;
+/// let mut cells = HalationCells::new(&Halation::new(HalationSettings::default())?, &frame)?;
+/// for band in [0..30, 30..64] {
+///     cells.add(&Planes::new(64, band)?)?;
+/// }
+/// let halo = cells.finish()?;
+/// # Ok::<(), onelight_spatial::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct HalationCells {
+    halation: Halation,
+    frame: Frame,
+    axes: [CellAxis; 2],
+    next_row: usize,
+    layers: [Option<LayerCells>; 3],
+}
+
+#[derive(Debug)]
+struct LayerCells {
+    sums: CellSums,
+    row: Vec<f32>,
+    cells: CellRows,
+}
+
+/// The light that returns everywhere in a picture, in cells.
+#[derive(Debug, Clone)]
+pub struct HaloField {
+    axes: [CellAxis; 2],
+    expansion: Expansion,
+    /// For each layer that halation reaches: by how much exposure goes towards the field, and the field, a mean of exposures.
+    layers: [Option<(f32, CellRows)>; 3],
+}
+
+impl HalationCells {
+    /// For the pictures of one frame.
+    ///
+    /// # Errors
+    /// If the picture has more cells than a plane may have numbers.
+    pub fn new(halation: &Halation, frame: &Frame) -> Result<Self, Error> {
+        let fine = halation.settings.antihalation.density() < FINE_BELOW_DENSITY;
+        Self::with_cells(halation, frame, if fine { FINE_CELL_UM } else { CELL_UM })
+    }
+
+    /// With cells of another size.
+    pub(crate) fn with_cells(halation: &Halation, frame: &Frame, cell_um: f64) -> Result<Self, Error> {
+        let size = |pitch: f64| (cell_um / pitch).round().max(1.0) as usize;
+        let (pitch, offset) = (frame.pitch(), frame.offset());
+        let x = CellAxis::new(size(pitch.x_um()), offset[0], frame.width());
+        let y = CellAxis::new(size(pitch.y_um()), offset[1], frame.height());
+        // The same limit as that of planes of pixels.
+        let _ = Planes::limit(x.count, y.count)?;
+        let layers = halation.pull().map(|pull| {
+            (pull > 0.0).then(|| LayerCells {
+                sums: CellSums::new(frame.width()),
+                row: vec![0.0; frame.width()],
+                cells: CellRows::new(x.count, 0..y.count),
+            })
+        });
+        Ok(Self { halation: halation.clone(), frame: *frame, axes: [x, y], next_row: 0, layers })
+    }
+
+    /// Adds the next rows of the picture's exposures, from top to bottom, each row once.
+    ///
+    /// # Errors
+    /// If they are not the next rows, or not as wide as the picture.
+    pub fn add(&mut self, exposures: &Planes) -> Result<(), Error> {
+        let rows = exposures.rows();
+        let is_next = rows.start == self.next_row && rows.end <= self.frame.height();
+        if !is_next || exposures.width() != self.frame.width() {
+            let found = format!("rows {} to {} of {} pixels", rows.start, rows.end, exposures.width());
+            let expected = format!(
+                "rows from {} to at most {} of {} pixels",
+                self.next_row,
+                self.frame.height(),
+                self.frame.width()
+            );
+            return Err(ErrorKind::Planes { what: "exposures for halation", found, expected }.into());
+        }
+        let [x, y] = self.axes;
+        self.layers.par_iter_mut().enumerate().for_each(|(index, layer)| {
+            let Some(layer) = layer else { return };
+            for row in rows.clone() {
+                for (clean, e) in layer.row.iter_mut().zip(exposures.layer_row(index, row)) {
+                    *clean = believed(*e);
+                }
+                layer.sums.add(&layer.row);
+                let cell = y.cell_of(row);
+                if y.pixels_of(cell).end == row + 1 {
+                    layer.sums.take(&x, layer.cells.row_mut(cell));
+                }
+            }
+        });
+        self.next_row = rows.end;
+        Ok(())
+    }
+
+    /// The light that returns, once all rows are there.
+    ///
+    /// # Errors
+    /// If rows are missing.
+    pub fn finish(self) -> Result<HaloField, Error> {
+        if self.next_row != self.frame.height() {
+            let found = format!("{} rows", self.next_row);
+            let expected = format!("all {} rows of the picture", self.frame.height());
+            return Err(ErrorKind::Planes { what: "exposures for halation", found, expected }.into());
+        }
+        let pitch = self.frame.pitch();
+        let kernel = HaloKernel::new(&self.halation, self.axes, [pitch.x_um(), pitch.y_um()]);
+        let pull = self.halation.pull();
+        let mut layers = [None, None, None];
+        layers.par_iter_mut().zip(&self.layers).zip(pull).for_each(|((field, layer), pull)| {
+            *field = layer.as_ref().map(|layer| (pull as f32, kernel.field(&layer.cells)));
+        });
+        Ok(HaloField { axes: self.axes, expansion: Expansion::new(&self.axes[0]), layers })
+    }
+}
+
+impl HaloField {
+    /// For a layer that halation reaches: by how much its exposure goes towards the field.
+    pub(crate) fn pull(&self, layer: usize) -> Option<f32> {
+        self.layers[layer].as_ref().map(|(pull, _)| *pull)
+    }
+
+    /// The field of a layer at the pixels of a row from `start`; `scratch` is as long as `out`.
+    pub(crate) fn row(&self, layer: usize, y: usize, start: usize, out: &mut [f32], scratch: &mut [f32]) {
+        let Some((_, field)) = &self.layers[layer] else { return };
+        let (upper, lower, t) = self.axes[1].between(y);
+        self.expansion.expand(field.row(upper as isize), start, out);
+        if t > 0.0 {
+            self.expansion.expand(field.row(lower as isize), start, scratch);
+            for (out, lower) in out.iter_mut().zip(scratch.iter()) {
+                *out += t * (lower - *out);
+            }
+        }
+    }
+}
+
+/// The profile in cells: positive Gaussians, and the weights of what is lost inside the ring.
+struct HaloKernel {
+    /// Share of each Gaussian in what returns, and its taps along both axes.
+    gaussians: Vec<(f32, [Vec<f32>; 2])>,
+    /// For each row of cells at distance 0, 1, and so on: weight of the cell in the middle, and of those beside it.
+    hole: Vec<(f32, Vec<f32>)>,
+}
+
+impl HaloKernel {
+    fn new(halation: &Halation, axes: [CellAxis; 2], pitch_um: [f64; 2]) -> Self {
+        let returned = halation.returned;
+        let gaussians = halation.gaussians.iter().map(|(weight, sigma_um)| {
+            let taps = |i: usize| cell_taps(&axes[i], sigma_um / pitch_um[i]).rounded();
+            ((weight / returned) as f32, [taps(0), taps(1)])
+        });
+        let cell = [0, 1].map(|i| axes[i].size() as f64 * pitch_um[i]);
+        let lost = halation.spread.smooth_returned() - returned;
+        Self { gaussians: gaussians.collect(), hole: hole(&halation.spread, cell, lost / returned) }
+    }
+
+    /// Means of exposure weighted by what returns.
+    fn field(&self, cells: &CellRows) -> CellRows {
+        let all = cells.rows.clone();
+        let mut field = self.without_hole(cells);
+        let mut gain = CellRows::new(cells.width, all.clone());
+        for (share, [x, y]) in &self.gaussians {
+            let blurred = cells.blurred(x, y, all.clone());
+            for ((gain, blurred), own) in gain.means.iter_mut().zip(&blurred.means).zip(&cells.means) {
+                *gain += share * (blurred - own);
+            }
+        }
+        for (field, gain) in field.means.iter_mut().zip(&gain.means) {
+            // Four Gaussians are not the profile: about a single light they may miss the hole's inside by a little.
+            *field = (*field + gain).max(0.0);
+        }
+        field
+    }
+
+    /// Each cell's own mean less what is lost of its neighbours' light.
+    fn without_hole(&self, cells: &CellRows) -> CellRows {
+        let reach = self.hole.iter().map(|(_, side)| side.len()).max().unwrap_or(0);
+        let rows = self.hole.len().saturating_sub(1) as isize;
+        let mut field = CellRows::new(cells.width, cells.rows.clone());
+        let stride = cells.width + 2 * reach;
+        let mut padded = vec![0.0; stride * cells.rows.len()];
+        for (row, padded) in cells.rows.clone().zip(padded.chunks_mut(stride)) {
+            copy_padded(cells.row(row as isize), -(reach as isize), padded);
+        }
+        let last = cells.rows.len() as isize - 1;
+        let row_of = |y: isize| {
+            let y = y.clamp(0, last) as usize;
+            &padded[y * stride..(y + 1) * stride]
+        };
+        field.means.par_chunks_mut(cells.width).enumerate().for_each(|(y, out)| {
+            for (block, out) in out.chunks_mut(LANES).enumerate() {
+                let (start, len) = (block * LANES + reach, out.len());
+                let own = lanes(&row_of(y as isize)[start..], len);
+                let mut sum = [0.0; LANES];
+                for dy in -rows..=rows {
+                    let (centre, side) = &self.hole[dy.unsigned_abs()];
+                    let row = row_of(y as isize + dy);
+                    let middle = lanes(&row[start..], len);
+                    for i in 0..LANES {
+                        sum[i] += centre * (middle[i] - own[i]);
+                    }
+                    for (distance, tap) in (1..).zip(side) {
+                        let (before, after) =
+                            (lanes(&row[start - distance..], len), lanes(&row[start + distance..], len));
+                        for i in 0..LANES {
+                            sum[i] += tap * ((before[i] + after[i]) - (own[i] + own[i]));
+                        }
+                    }
+                }
+                for i in 0..len {
+                    out[i] = own[i] - sum[i];
+                }
+            }
+        });
+        field
+    }
+}
+
+/// Weights of the cells inside the ring, by rows at distance 0, 1, and so on; all of them together sum to `sum`.
+fn hole(spread: &PointSpread, cell_um: [f64; 2], sum: f64) -> Vec<(f32, Vec<f32>)> {
+    let reach = cell_um.map(|cell| (spread.ring_um() / cell + 0.5).floor() as i32);
+    let weight = |dx: i32, dy: i32| {
+        let along = |d: i32, i: i32, cell: f64| (f64::from(d) + (f64::from(i) + 0.5) / f64::from(POINTS) - 0.5) * cell;
+        let points = (0..POINTS * POINTS).map(|i| (i % POINTS, i / POINTS));
+        let at = |(i, j)| spread.lost(along(dx, i, cell_um[0]).hypot(along(dy, j, cell_um[1])));
+        points.map(at).sum::<f64>()
+    };
+    let rows: Vec<Vec<f64>> = (0..=reach[1]).map(|dy| (0..=reach[0]).map(|dx| weight(dx, dy)).collect()).collect();
+    let twice = |d: usize| if d == 0 { 1.0 } else { 2.0 };
+    let all: f64 = rows
+        .iter()
+        .enumerate()
+        .map(|(dy, row)| row.iter().enumerate().map(|(dx, w)| twice(dx) * twice(dy) * w).sum::<f64>())
+        .sum();
+    let scaled = |w: f64| (w * sum / all) as f32;
+    rows.into_iter().map(|row| (scaled(row[0]), row[1..].iter().map(|w| scaled(*w)).collect())).collect()
+}

@@ -1,0 +1,249 @@
+use std::ops::Range;
+
+use fearless_simd::Level;
+use rayon::prelude::*;
+
+use crate::cells::{CellRows, CellSums, Expansion};
+use crate::chain::Development;
+use crate::error::{Error, ErrorKind};
+use crate::frame::Frame;
+use crate::grain::Grain;
+use crate::halation::{Halation, HalationCells, HaloField};
+use crate::planes::Planes;
+use crate::sharpness::{AdjacencyBlur, LayerBlurs, Scatter, Sharpness};
+use crate::strip::{Scratch, TILE, Tile, add_grain, adjacency_layer, expose_layer};
+
+/// Rows of a strip, which one thread works on.
+const STRIP: usize = 64;
+
+/// The effects of a film on one picture: from exposures to amounts of dye, a band of rows at a time.
+///
+/// `E -> scatter -> halation -> development -> adjacency -> grain -> amounts`. What is left out costs nothing. The rows that come out are the
+/// same to the bit for any division into bands and any number of threads. Beyond the picture's edges its edge pixels repeat. Hard exposures
+/// have one result: NaN and negative ones count as 0, none is above 1e30.
+///
+/// ```
+/// use onelight_spatial::{FilmFormat, Frame, Halation, HalationSettings, Planes, SpatialStage};
+/// let frame = Frame::new([300, 200], FilmFormat::Super35.pitch(2048, 1.0)?)?;
+/// let stage = SpatialStage::new(frame).with_halation(Halation::new(HalationSettings::default())?);
+/// // The picture's exposures: one bright light.
+/// let exposures = |rows: std::ops::Range<usize>| -> Result<Planes, onelight_spatial::Error> {
+///     let mut planes = Planes::new(300, rows)?;
+///     if planes.rows().contains(&100) {
+///         planes.row_mut(100)[0][150] = 1e4;
+///     }
+///     Ok(planes)
+/// };
+/// // All of them once for the halo, then again for each band.
+/// let mut cells = stage.halation_cells()?.ok_or("no halation")?;
+/// cells.add(&exposures(0..200)?)?;
+/// let halo = cells.finish()?;
+/// for band in [0..96, 96..200] {
+///     let needed = exposures(stage.exposure_rows(band.clone()))?;
+///     let amounts = stage.amounts(&needed, Some(&halo), band, &|e: [f32; 3]| e.map(|e| e.sqrt()))?;
+///     assert!(amounts.row(95)[0][130] > 0.0 || amounts.rows().start == 96);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct SpatialStage {
+    frame: Frame,
+    blurs: Option<[LayerBlurs; 3]>,
+    halation: Option<Halation>,
+    grain: Option<Grain>,
+    level: Level,
+}
+
+impl SpatialStage {
+    /// Without any effect: development alone.
+    #[must_use]
+    pub fn new(frame: Frame) -> Self {
+        Self { frame, blurs: None, halation: None, grain: None, level: Level::new() }
+    }
+
+    /// With scatter and adjacency.
+    #[must_use]
+    pub fn with_sharpness(self, sharpness: &Sharpness) -> Self {
+        Self { blurs: Some(sharpness.in_pixels(&self.frame)), ..self }
+    }
+
+    /// With halation, which needs the whole picture's exposures first ([`SpatialStage::halation_cells`]).
+    #[must_use]
+    pub fn with_halation(self, halation: Halation) -> Self {
+        Self { halation: Some(halation), ..self }
+    }
+
+    /// With grain made for pixels of this frame's size.
+    #[must_use]
+    pub fn with_grain(self, grain: Grain) -> Self {
+        Self { grain: Some(grain), ..self }
+    }
+
+    /// The same for another picture of the same size and place in its frame: the next of a sequence.
+    #[must_use]
+    pub fn numbered(self, number: u32) -> Self {
+        Self { frame: self.frame.numbered(number), ..self }
+    }
+
+    /// The picture.
+    #[must_use]
+    pub fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    /// What must be fed with all exposures before [`SpatialStage::amounts`]; `None` without halation.
+    ///
+    /// # Errors
+    /// If the picture has too many cells.
+    pub fn halation_cells(&self) -> Result<Option<HalationCells>, Error> {
+        self.halation.as_ref().map(|halation| HalationCells::new(halation, &self.frame)).transpose()
+    }
+
+    /// The rows of exposures that the amounts of these rows depend on.
+    #[must_use]
+    pub fn exposure_rows(&self, rows: Range<usize>) -> Range<usize> {
+        let scatter = self.layers().filter_map(|layer| layer.scatter.as_ref()).map(Scatter::rows).max().unwrap_or(0);
+        self.widened(self.amount_rows(rows), scatter)
+    }
+
+    /// The rows of developed amounts that the amounts of these rows depend on.
+    fn amount_rows(&self, rows: Range<usize>) -> Range<usize> {
+        let mut all = rows.clone();
+        for adjacency in self.layers().filter_map(|layer| layer.adjacency.as_ref()) {
+            let needed = match &adjacency.blur {
+                AdjacencyBlur::Pixels([_, y]) => self.widened(rows.clone(), y.len()),
+                AdjacencyBlur::Cells([_, y], [_, taps]) => {
+                    let cells = needed_cells(y, &rows, taps.len());
+                    y.pixels_of(cells.start).start..y.pixels_of(cells.end - 1).end
+                }
+            };
+            all = all.start.min(needed.start)..all.end.max(needed.end);
+        }
+        all
+    }
+
+    fn widened(&self, rows: Range<usize>, margin: usize) -> Range<usize> {
+        rows.start.saturating_sub(margin)..(rows.end + margin).min(self.frame.height())
+    }
+
+    fn layers(&self) -> impl Iterator<Item = &LayerBlurs> {
+        self.blurs.iter().flatten()
+    }
+
+    /// The amounts of dye of `rows`. `exposures` holds at least the rows of [`SpatialStage::exposure_rows`]; `halo` is what
+    /// [`SpatialStage::halation_cells`] came to, `None` without halation.
+    ///
+    /// # Errors
+    /// If `rows` are none or not of the picture, exposures are missing, or the halo is missing or not wanted.
+    pub fn amounts(
+        &self,
+        exposures: &Planes,
+        halo: Option<&HaloField>,
+        rows: Range<usize>,
+        development: &impl Development,
+    ) -> Result<Planes, Error> {
+        self.check(exposures, halo, &rows)?;
+        let developed = self.developed(exposures, halo, self.amount_rows(rows.clone()), development)?;
+        if self.grain.is_none() && self.layers().all(|layer| layer.adjacency.is_none()) {
+            return Ok(developed);
+        }
+        let cells: Vec<_> =
+            (0..3).into_par_iter().map(|layer| self.adjacency_cells(&developed, layer, &rows)).collect();
+        let mut finished = Planes::new(self.frame.width(), rows)?;
+        self.for_each_strip(&mut finished, |tile, scratch, strip| {
+            for layer in 0..3 {
+                let mut out: Vec<&mut [f32]> = strip.iter_mut().map(|rows| &mut *rows[layer]).collect();
+                let adjacency = self.blurs.as_ref().and_then(|blurs| blurs[layer].adjacency.as_ref());
+                let cells = cells[layer].as_ref();
+                adjacency_layer(self.level, (&developed, layer), tile, adjacency, cells, scratch, &mut out);
+            }
+            if let Some(grain) = &self.grain {
+                add_grain(self.level, grain, self.frame.number(), tile, self.frame.offset(), scratch, strip);
+            }
+        });
+        Ok(finished)
+    }
+
+    fn check(&self, exposures: &Planes, halo: Option<&HaloField>, rows: &Range<usize>) -> Result<(), Error> {
+        let refuse = |what, found: String, expected: String| Err(ErrorKind::Planes { what, found, expected }.into());
+        if rows.is_empty() || rows.end > self.frame.height() {
+            let found = format!("{} to {}", rows.start, rows.end);
+            return refuse("rows", found, format!("some of 0 to {}", self.frame.height()));
+        }
+        let (needed, given) = (self.exposure_rows(rows.clone()), exposures.rows());
+        if given.start > needed.start || given.end < needed.end || exposures.width() != self.frame.width() {
+            let found = format!("rows {} to {} of {} pixels", given.start, given.end, exposures.width());
+            let expected = format!("rows {} to {} of {} pixels", needed.start, needed.end, self.frame.width());
+            return refuse("exposures", found, expected);
+        }
+        match (&self.halation, halo) {
+            (Some(_), None) => refuse("halo", "none".to_owned(), "that of the whole picture's exposures".to_owned()),
+            (None, Some(_)) => refuse("halo", "one".to_owned(), "none without halation".to_owned()),
+            _ => Ok(()),
+        }
+    }
+
+    /// Rows after scatter, halation and development.
+    fn developed(
+        &self,
+        exposures: &Planes,
+        halo: Option<&HaloField>,
+        rows: Range<usize>,
+        development: &impl Development,
+    ) -> Result<Planes, Error> {
+        let mut developed = Planes::new(self.frame.width(), rows)?;
+        self.for_each_strip(&mut developed, |tile, scratch, strip| {
+            for layer in 0..3 {
+                let mut out: Vec<&mut [f32]> = strip.iter_mut().map(|rows| &mut *rows[layer]).collect();
+                let scatter = self.blurs.as_ref().and_then(|blurs| blurs[layer].scatter.as_ref());
+                expose_layer(self.level, (exposures, layer), tile, scatter, halo, scratch, &mut out);
+            }
+            for rows in strip {
+                development.develop(rows.each_mut().map(|row| &mut **row));
+            }
+        });
+        Ok(developed)
+    }
+
+    /// The blurred cells of a layer that the amounts of `rows` need, if its adjacency is made in cells.
+    fn adjacency_cells(&self, amounts: &Planes, layer: usize, rows: &Range<usize>) -> Option<(CellRows, Expansion)> {
+        let adjacency = self.blurs.as_ref()?[layer].adjacency.as_ref()?;
+        let AdjacencyBlur::Cells([x, y], [x_taps, y_taps]) = &adjacency.blur else { return None };
+        let mut cells = CellRows::new(x.count, needed_cells(y, rows, y_taps.len()));
+        let mut sums = CellSums::new(amounts.width());
+        for cell in cells.rows.clone() {
+            for row in y.pixels_of(cell) {
+                sums.add(amounts.layer_row(layer, row));
+            }
+            sums.take(x, cells.row_mut(cell));
+        }
+        Some((cells.blurred(x_taps, y_taps, needed_cells(y, rows, 0)), Expansion::new(x)))
+    }
+
+    /// Hands the tiles of all strips to `work`, strips on the threads of the current pool.
+    fn for_each_strip(&self, planes: &mut Planes, work: impl Fn(Tile, &mut Scratch, &mut [[&mut [f32]; 3]]) + Sync) {
+        let (width, height, first) = (planes.width(), self.frame.height(), planes.rows().start);
+        let [red, green, blue] = planes.layers_mut();
+        let strips = red.par_chunks_mut(STRIP * width).zip(green.par_chunks_mut(STRIP * width));
+        let strips = strips.zip(blue.par_chunks_mut(STRIP * width)).enumerate();
+        strips.for_each_init(Scratch::default, |scratch, (index, ((red, green), blue))| {
+            let rows = red.len() / width;
+            for x in (0..width).step_by(TILE) {
+                let tile = Tile { x, width: TILE.min(width - x), y: first + index * STRIP, rows, height };
+                let columns = x..x + tile.width;
+                let rows =
+                    red.chunks_exact_mut(width).zip(green.chunks_exact_mut(width)).zip(blue.chunks_exact_mut(width));
+                let mut strip: Vec<[&mut [f32]; 3]> = rows
+                    .map(|((r, g), b)| [&mut r[columns.clone()], &mut g[columns.clone()], &mut b[columns.clone()]])
+                    .collect();
+                work(tile, scratch, &mut strip);
+            }
+        });
+    }
+}
+
+/// The rows of cells between which the pixels of `rows` lie, and `margin` more on either side.
+fn needed_cells(axis: &crate::cells::CellAxis, rows: &Range<usize>, margin: usize) -> Range<usize> {
+    let (first, last) = (axis.between(rows.start).0, axis.between(rows.end - 1).1);
+    first.saturating_sub(margin)..(last + 1 + margin).min(axis.count)
+}
