@@ -11,6 +11,7 @@ mod picture_file;
 mod plot;
 mod preview;
 mod progress;
+mod rebuild;
 mod scene_colours;
 mod sheet;
 mod switches;
@@ -64,6 +65,9 @@ pub fn main() -> ExitCode {
     onelight_picture::silence_panics_while_reading();
     let printed = run(Arguments::parse().command).and_then(|report| print(&report));
     let Err(error) = printed else { return ExitCode::SUCCESS };
+    if let Some(failed) = error.downcast_ref::<rebuild::FailedElsewhere>() {
+        return ExitCode::from(failed.code());
+    }
     // Where even this cannot be written, only the status is left to tell.
     let _ = writeln!(io::stderr(), "error: {error:#}{}", hint(&error));
     ExitCode::from(2)

@@ -205,6 +205,7 @@ impl LookArguments {
     }
 
     /// Whether the command line says which films to use.
+    #[cfg(feature = "measure")]
     pub(crate) fn names_film(&self) -> bool {
         self.look.is_some() || self.camera.is_some()
     }

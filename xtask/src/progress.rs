@@ -1,10 +1,8 @@
 //! Progress bars and clocks.
 
-use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use onelight_benches::Progress;
 
 /// A bar over `length` steps on the terminal; nothing where there is none.
 pub(crate) fn bar(what: &'static str, length: u64) -> ProgressBar {
@@ -14,7 +12,12 @@ pub(crate) fn bar(what: &'static str, length: u64) -> ProgressBar {
 }
 
 /// A bar for each part of a measurement, one after the other.
-pub(crate) fn bars() -> impl Fn(Progress) + Sync {
+#[cfg(feature = "measure")]
+pub(crate) fn bars() -> impl Fn(onelight_benches::Progress) + Sync {
+    use std::sync::{Mutex, PoisonError};
+
+    use onelight_benches::Progress;
+
     let shown: Mutex<Option<ProgressBar>> = Mutex::new(None);
     move |Progress { part, done, steps }| {
         let mut shown = shown.lock().unwrap_or_else(PoisonError::into_inner);

@@ -6,7 +6,6 @@ use onelight::baked::{Form, Recipe, ShaperChoice};
 use onelight::certify::{Certifier, MeanAndMax, in_words, to_six_stops};
 use onelight::lut::{Certificate, SamplingLaw, Search, Storage};
 use onelight::{Aim, Entries, Nodes, Process, ProcessKeys, TableCoding, Word, WorkingSpace};
-use onelight_benches::buffers;
 use serde_json::{Value, json};
 
 use crate::Report;
@@ -110,7 +109,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     Ok(Report { text, json: Value::from(rows), as_json: arguments.json })
 }
 
+/// Runs this command again in a build with the measurements.
+#[cfg(not(feature = "measure"))]
+fn buffer_steps(_: &Arguments) -> Result<Report> {
+    crate::rebuild::run_with("measure")
+}
+
+#[cfg(feature = "measure")]
 fn buffer_steps(arguments: &Arguments) -> Result<Report> {
+    use onelight_benches::buffers;
+
     let film = arguments.look.chosen()?.look()?;
     let mut text =
         "largest step (CIEDE2000) on a grey ramp from -8 to +4 stops, through the buffer and the film\n".to_owned();

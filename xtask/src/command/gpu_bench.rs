@@ -45,25 +45,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
 
 /// Runs this command again in a build that knows graphics cards.
 #[cfg(not(feature = "gpu"))]
-pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
-    use std::process::Command;
-
-    use anyhow::{Context, bail};
-
-    use crate::folders;
-
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let mut again = Command::new(cargo);
-    again.args(["run", "--release", "--quiet", "--package", "xtask", "--features", "gpu", "--", "gpu-bench"]);
-    if let Some(folder) = &arguments.out {
-        again.arg("--out").arg(std::path::absolute(folder)?);
-    }
-    again.args(arguments.software.then_some("--software"));
-    again.args(arguments.json.then_some("--json"));
-    let status =
-        again.current_dir(folders::workspace()?).status().context("cargo cannot be run to build for the GPU")?;
-    if !status.success() {
-        bail!("gpu-bench in the build with the feature gpu: found {status}, expected success");
-    }
-    Ok(Report { text: String::new(), json: serde_json::Value::Null, as_json: false })
+pub(crate) fn run(_: &Arguments) -> Result<Report> {
+    crate::rebuild::run_with("gpu")
 }

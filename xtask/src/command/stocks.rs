@@ -5,7 +5,6 @@ use anyhow::{Result, bail};
 use clap::Args;
 use onelight::film::{ExposureAxis, Origin, PerLayer};
 use onelight::{FilmProcess, Printing, Process, Stock, StockKind, stock, stock_ids};
-use onelight_benches::sheet_fidelity;
 use serde_json::{Value, json};
 
 use crate::{Report, folders, plot};
@@ -33,13 +32,24 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let (text, json) = match &arguments.id {
         Some(id) => one(id, arguments.out.as_deref())?,
         None if arguments.check => check()?,
-        None if arguments.fidelity => {
-            let found = sheet_fidelity::all()?;
-            (sheet_fidelity::table(&found), serde_json::to_value(found)?)
-        }
+        None if arguments.fidelity => return fidelity(arguments),
         None => all()?,
     };
     Ok(Report { text, json, as_json: arguments.json })
+}
+
+/// Runs this command again in a build with the measurements.
+#[cfg(not(feature = "measure"))]
+fn fidelity(_: &Arguments) -> Result<Report> {
+    crate::rebuild::run_with("measure")
+}
+
+#[cfg(feature = "measure")]
+fn fidelity(arguments: &Arguments) -> Result<Report> {
+    use onelight_benches::sheet_fidelity;
+
+    let found = sheet_fidelity::all()?;
+    Ok(Report { text: sheet_fidelity::table(&found), json: serde_json::to_value(found)?, as_json: arguments.json })
 }
 
 fn all() -> Result<(String, Value)> {

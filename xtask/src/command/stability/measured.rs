@@ -1,32 +1,12 @@
-//! `stability`: every implementation of a look, on inputs that are hard.
-
-use std::path::PathBuf;
-
 use anyhow::Result;
-use clap::Args;
 use onelight::{Process, StockKind, stock, stock_ids};
 use onelight_benches::stability::{Card, Contents, STEPS, rows as measured};
 
-use super::certify::{of_the_readme, with_films};
+use super::Arguments;
 use crate::atomic_file::AtomicFiles;
-use crate::look::LookArguments;
+use crate::command::certify::{of_the_readme, with_films};
 use crate::progress::{Clock, bar};
 use crate::{Report, folders};
-
-#[derive(Debug, Args)]
-pub(crate) struct Arguments {
-    #[command(flatten)]
-    look: LookArguments,
-    /// Every camera film on every print film, 59 looks; without it, and where no film is named, the ten of the README
-    #[arg(long, conflicts_with_all = ["camera", "print", "aim"])]
-    all: bool,
-    /// Folder to write stability.md and stability.json to [default: target/onelight]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
-    /// Print the result as one JSON object
-    #[arg(long)]
-    json: bool,
-}
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let mut clock = Clock::default();

@@ -1,41 +1,21 @@
-//! `report`: the speed of every form against its error, and what its parts cost, as one page.
-
 use std::cell::RefCell;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::{Context, Result};
-use clap::Args;
 use onelight::Process;
 use onelight_benches::report::{self, Elsewhere, Listener, Scope};
 
-use super::certify::with_films;
+use super::Arguments;
 use crate::atomic_file::AtomicFiles;
+use crate::command::certify::with_films;
 use crate::look::LookArguments;
 use crate::progress::{Clock, bars};
 use crate::{Report, folders};
 
 /// The reversal film beside the default negative, so that both kinds show.
 const REVERSAL: &str = "fuji-velvia-50";
-
-#[derive(Debug, Args)]
-pub(crate) struct Arguments {
-    #[command(flatten)]
-    look: LookArguments,
-    /// Fewer forms, fewer colours and a smaller picture: seconds instead of minutes, and rough figures
-    #[arg(long)]
-    quick: bool,
-    /// Folder to write to [default: target/onelight/report]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
-    /// Write the plot that the README shows too, to docs/images/speed-error.svg
-    #[arg(long, conflicts_with = "quick")]
-    commit: bool,
-    /// Print the result as one JSON object
-    #[arg(long)]
-    json: bool,
-}
 
 /// Longest file of other measurements that is read.
 const MAX_BYTES: u64 = 4 << 20;

@@ -1,0 +1,218 @@
+mod banding;
+mod contact_sheet;
+mod develop;
+mod frame;
+mod page;
+mod plan;
+
+use std::fmt::Write as _;
+
+use anyhow::Result;
+use onelight::ProcessKeys;
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+use super::Arguments;
+use crate::atomic_file::AtomicFiles;
+use crate::progress::{Clock, bar};
+use crate::{Report, folders};
+use contact_sheet::{Tile, coded};
+use develop::{Darkroom, Developed, Distance, differences, on_chart};
+use frame::Frame;
+use page::{Row, Section};
+use plan::Sheet;
+
+/// The sheet of frame buffers, which has no frame.
+const BANDING: &str = "banding";
+
+pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
+    let mut clock = Clock::default();
+    let sheets = chosen(&arguments.sheets)?;
+    let folder = match &arguments.out {
+        Some(folder) => folders::make(folder)?,
+        None => folders::output("compare")?,
+    };
+    let mut frames = vec![clock.time("scene", frame::scene)?, frame::chart()?];
+    for path in &arguments.pictures {
+        let mut user = clock.time("read", || frame::user(path, arguments.ev))?;
+        if frames.iter().any(|frame| frame.name == user.name) {
+            user.name = format!("{}_{}", user.name, frames.len());
+        }
+        frames.push(user);
+    }
+    let chart = frame::chart_colours()?;
+    let mut darkroom = Darkroom::default();
+    let mut sections = Vec::new();
+    let progress = bar("comparing", (frames.len() * sheets.len()) as u64);
+    for frame in &frames {
+        darkroom.change_frame();
+        let mut drafts = Vec::new();
+        for sheet in &sheets {
+            drafts.push(clock.time("develop", || draft(&mut darkroom, frame, sheet, &chart))?);
+            progress.inc(1);
+        }
+        let drawn: Result<Vec<Section>> = clock.time("draw", || drafts.into_par_iter().map(Draft::drawn).collect());
+        sections.extend(drawn?);
+    }
+    progress.finish_and_clear();
+    if arguments.sheets.is_empty() || arguments.sheets.iter().any(|name| name == BANDING) {
+        sections.push(clock.time("banding", || bands(&mut darkroom))?);
+    }
+    let json_sections: Vec<Value> = sections.iter().map(as_json).collect();
+    let mut files = AtomicFiles::in_folder(&folder);
+    files.add("index.html", page::page(&sections).into_bytes());
+    let mut text = String::new();
+    for section in sections {
+        figures(&mut text, &section);
+        files.add(&format!("{}.png", section.file), section.png);
+    }
+    let written = clock.time("write", || files.write())?;
+    let shown: Vec<String> = written.iter().map(|file| folders::shown(file)).collect();
+    let first = shown.first().cloned().unwrap_or_default();
+    let _ = writeln!(text, "{first}   {} sheets beside it", shown.len().saturating_sub(1));
+    let _ = writeln!(text, "time: {}", clock.sentence());
+    let json = json!({ "unit": "CIEDE2000", "files": shown, "sheets": json_sections, "seconds": clock.json() });
+    Ok(Report { text, json, as_json: arguments.json })
+}
+
+/// The sheets of these names; all of them for none.
+fn chosen(names: &[String]) -> Result<Vec<Sheet>> {
+    let sheets = plan::sheets()?;
+    let known: Vec<&str> = sheets.iter().map(|sheet| sheet.name).chain([BANDING]).collect();
+    if let Some(unknown) = names.iter().find(|name| !known.contains(&name.as_str())) {
+        anyhow::bail!("no sheet is called {unknown:?}, expected one of {}", known.join(", "));
+    }
+    Ok(sheets.into_iter().filter(|sheet| names.is_empty() || names.iter().any(|name| name == sheet.name)).collect())
+}
+
+/// A sheet whose pictures are developed.
+struct Draft {
+    section: Section,
+    columns: usize,
+    tiles: Vec<Tile>,
+}
+
+impl Draft {
+    fn drawn(self) -> Result<Section> {
+        let Self { mut section, columns, tiles } = self;
+        section.png = contact_sheet::sheet(&section.title, columns, &tiles)?;
+        Ok(section)
+    }
+}
+
+fn draft(darkroom: &mut Darkroom, frame: &Frame, sheet: &Sheet, chart: &[[f64; 3]]) -> Result<Draft> {
+    let developed: Vec<Developed> = sheet.shots.iter().map(|shot| darkroom.develop(frame, shot)).collect();
+    let looks: Vec<_> = sheet.shots.iter().map(|shot| darkroom.look(&shot.keys).ok()).collect();
+    let made: Result<Vec<(Tile, Option<Row>)>> = (0..sheet.shots.len())
+        .into_par_iter()
+        .map(|i| {
+            let shot = &sheet.shots[i];
+            let row = match (shot.beside, &developed[i], shot.beside.map(|b| &developed[b])) {
+                (Some(b), Ok(turned), Some(Ok(plain))) => {
+                    let differences = frame.spread(&differences(plain, turned)?);
+                    let looks = looks[b].as_ref().zip(looks[i].as_ref()).filter(|_| shot.ev == 0);
+                    Some(Row {
+                        shot: shot.caption.clone(),
+                        beside: sheet.shots[b].caption.clone(),
+                        here: Distance::of(&differences),
+                        chart: looks.map(|(plain, turned)| on_chart(plain, turned, chart)).transpose()?,
+                        note: String::new(),
+                        picture: Some(contact_sheet::differences(frame.width as u32, &differences)?),
+                    })
+                }
+                _ => None,
+            };
+            let figures = row.as_ref().map_or_else(String::new, |row| {
+                format!("dE {:.2}, 95% {:.2}, max {:.2}", row.here.mean, row.here.p95, row.here.max)
+            });
+            let tile = Tile {
+                captions: [shot.caption.clone(), figures],
+                width: frame.width as u32,
+                height: frame.height as u32,
+                picture: developed[i].clone().map(|linear| frame.spread(&coded(&linear))),
+            };
+            Ok((tile, row))
+        })
+        .collect();
+    let (tiles, rows): (Vec<Tile>, Vec<Option<Row>>) = made?.into_iter().unzip();
+    let section = Section {
+        file: format!("{}_{}", frame.name, sheet.name),
+        title: format!("{}: {}", sheet.title, frame.name),
+        text: sheet.text.to_owned(),
+        png: Vec::new(),
+        rows: rows.into_iter().flatten().collect(),
+    };
+    Ok(Draft { section, columns: sheet.columns, tiles })
+}
+
+fn bands(darkroom: &mut Darkroom) -> Result<Section> {
+    let look = darkroom.look(&ProcessKeys::default()).map_err(anyhow::Error::msg)?;
+    let (tiles, bands) = banding::tiles(&look)?;
+    let title = "Banding of frame buffers before the film".to_owned();
+    let row = |band: &banding::Band| Row {
+        shot: band.name.to_owned(),
+        beside: "no buffer".to_owned(),
+        here: band.distance,
+        chart: None,
+        note: format!("largest step {:.2}", band.step),
+        picture: None,
+    };
+    Ok(Section {
+        file: BANDING.to_owned(),
+        png: contact_sheet::sheet(&title, 4, &tiles)?,
+        text: "A ramp from -7 to +3 stops through K-negative, grey and warm, and its dark part with the contrast stretched. The \
+               talk's scale factor lifts the scene in the 10-bit float out of its coarse denormals: its steps fall to a third."
+            .to_owned(),
+        title,
+        rows: bands.iter().map(row).collect(),
+    })
+}
+
+fn figures(text: &mut String, section: &Section) {
+    let _ = writeln!(text, "{:46} {:>20}  {:>20}", section.title, "mean, 95 %, max", "ColorChecker +-2");
+    for row in &section.rows {
+        let of = |d: Distance| format!("{:.2} {:.2} {:.2}", d.mean, d.p95, d.max);
+        let chart = row.chart.map(of).unwrap_or_default();
+        let _ = writeln!(text, "  {:44} {:>20}  {chart:>20}  {}", row.shot, of(row.here), row.note);
+    }
+}
+
+fn as_json(section: &Section) -> Value {
+    let rows = section.rows.iter().map(|row| {
+        json!({ "shot": row.shot, "against": row.beside, "here": row.here, "color_checker": row.chart, "note": row.note })
+    });
+    json!({ "file": format!("{}.png", section.file), "title": section.title, "rows": rows.collect::<Vec<_>>() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// docs/talk.md has the figures of every shot at normal exposure that has something to be compared with.
+    #[test]
+    fn docs_hold_the_sizes() {
+        let docs = include_str!("../../../../../docs/talk.md");
+        let (chart, mut darkroom) = (frame::chart_colours().unwrap(), Darkroom::default());
+        let mut count = 0;
+        for sheet in plan::sheets().unwrap() {
+            for shot in sheet.shots.iter().filter(|shot| shot.ev == 0) {
+                let Some(beside) = shot.beside else { continue };
+                let (plain, turned) = (darkroom.look(&sheet.shots[beside].keys), darkroom.look(&shot.keys));
+                let (Ok(plain), Ok(turned)) = (plain, turned) else { continue };
+                let Distance { mean, p95, max } = on_chart(&plain, &turned, &chart).unwrap();
+                let row = format!("| {} | {mean:.2} | {p95:.2} | {max:.2} |", shot.caption);
+                assert!(docs.lines().any(|line| line.starts_with(&row)), "docs/talk.md lacks: {row}");
+                count += 1;
+            }
+        }
+        assert!(count > 50, "{count}");
+    }
+
+    #[test]
+    fn sheets_are_chosen_by_name() {
+        assert_eq!(chosen(&["infrared".to_owned()]).unwrap().len(), 1);
+        assert!(chosen(&[BANDING.to_owned()]).unwrap().is_empty());
+        let error = chosen(&["infared".to_owned()]).map(|_| ()).unwrap_err().to_string();
+        assert!(error.contains("infared") && error.contains("infrared"), "{error}");
+    }
+}
