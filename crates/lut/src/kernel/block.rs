@@ -1,5 +1,7 @@
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, dispatch, f32x4};
+use fearless_simd::{Level, f32x4};
+
+use super::dispatch::dispatch;
 
 /// Pixels in a block: few enough for all scratch to stay in the first cache, many enough to hide what a block costs once.
 pub(crate) const BLOCK: usize = 128;

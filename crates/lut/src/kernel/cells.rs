@@ -1,7 +1,8 @@
+use fearless_simd::Level;
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, dispatch};
 
 use super::block::{Block, load_rgb, map_channels, store, store_indices, vector_starts};
+use super::dispatch::dispatch;
 use super::log2_exp2::log2s;
 use super::matrix::above_zero;
 use crate::interpolate::Interpolation;

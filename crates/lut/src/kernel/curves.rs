@@ -1,7 +1,8 @@
+use fearless_simd::Level;
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, dispatch};
 
 use super::block::{BLOCK, Block, Plane, Scratch, load, store, store_indices, vector_starts};
+use super::dispatch::dispatch;
 use crate::lut1d::Lut1d;
 
 /// The curves of a [`Lut1d`], one after the other: twice as many bytes again as the table has.

@@ -1,7 +1,8 @@
+use fearless_simd::Level;
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, dispatch};
 
 use super::block::{Block, load_rgb, map_channels, store_rgb, vector_starts};
+use super::dispatch::dispatch;
 use super::log2_exp2::log2s;
 use super::matrix::{above_zero, times, zero_for_nan};
 use crate::scene_light::{IDENTITY, LOG_FLOOR, Rows, SCENE_MAX};

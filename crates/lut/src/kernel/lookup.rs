@@ -1,8 +1,9 @@
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, dispatch, f32x4, f32x8, f32x16};
+use fearless_simd::{Level, f32x4, f32x8, f32x16};
 
 use super::block::{BLOCK, Block, Plane, Scratch};
 use super::cells::{Axes, find_cells};
+use super::dispatch::dispatch;
 use super::wide::Wide;
 use crate::interpolate::Interpolation;
 use crate::lut3d::Lut3d;

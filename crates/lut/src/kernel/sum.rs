@@ -1,8 +1,9 @@
+use fearless_simd::Level;
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, dispatch};
 
 use super::block::{BLOCK, Block, load_rgb, map_channels, store_rgb};
 use super::coding::code;
+use super::dispatch::dispatch;
 use super::log2_exp2::{exp2s, log2s};
 use crate::coding::PowerNumbers;
 use crate::exponential_sum::ExponentialTerm;

@@ -62,7 +62,12 @@ pub trait PixelMap: sealed::Sealed + Sync {
 
     /// Every pixel of a picture in place: what is read is overwritten.
     fn map_in_place<S: Sample>(&self, pixels: &mut PixelsMut<'_, S>) {
-        run::map_in_place(self.blocks().0, SimdLevel::best().level(), pixels.samples, pixels.layout);
+        self.map_in_place_on(SimdLevel::best(), pixels);
+    }
+
+    /// The same as [`PixelMap::map_in_place`], by the instructions of one level.
+    fn map_in_place_on<S: Sample>(&self, level: SimdLevel, pixels: &mut PixelsMut<'_, S>) {
+        run::map_in_place(self.blocks().0, level.level(), pixels.samples, pixels.layout);
     }
 
     /// Every colour of a list in place.

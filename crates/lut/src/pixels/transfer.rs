@@ -1,13 +1,14 @@
 //! Samples to planes and back.
 
+use fearless_simd::Level;
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, dispatch};
 
 use super::raw::Raw;
 use super::sample::LaneSample;
 use super::samples::{Samples, SamplesMut};
 use super::view::Channels;
 use crate::kernel::block::{BLOCK, Block, Plane};
+use crate::kernel::dispatch::dispatch;
 
 /// The most lanes that a level has.
 const LANES: usize = 16;

@@ -1,5 +1,4 @@
 //! Laws of tables, shapers and forms on random input. What was found by them is kept below as a test with a name.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
 
 use onelight_lut::{
     Channels, Decode, DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, Interpolation,

@@ -1,11 +1,11 @@
-use super::*;
-use crate::kernel::levels;
-use crate::{
-    Decode, DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, IDENTITY, Interpolation,
-    Lut1d, Lut3d, Mix, PixelMap, PlainLut, PowerCoding, Rows, SceneSampler, Shaper, SimdLevel, StructuredLut,
-    StructuredParts,
-};
+//! Every copy of the pixel loops against the scalar definition of each form.
+
 use half::f16;
+use onelight_lut::{
+    Channels, Decode, DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, IDENTITY,
+    Interpolation, Lut1d, Lut3d, Mix, PixelMap, Pixels, PixelsMut, PlainLut, PowerCoding, Rows, Sample, SceneSampler,
+    Shaper, SimdLevel, StructuredLut, StructuredParts,
+};
 
 /// Coordinates in a table differ by their roundings, some 3e-7; the forms here change by less than 20 over the table, and a
 /// few roundings of the result come on top.
@@ -109,6 +109,25 @@ fn scene(pixels: usize) -> Vec<f32> {
     samples
 }
 
+/// Where the pixels of a picture lie among its samples.
+#[derive(Clone, Copy)]
+struct Layout {
+    channels: Channels,
+    width: usize,
+    height: usize,
+    stride: usize,
+}
+
+impl Layout {
+    fn pixels<S: Sample>(self, samples: &[S]) -> Pixels<'_, S> {
+        Pixels::with_stride(samples, self.channels, [self.width, self.height], self.stride).unwrap()
+    }
+
+    fn pixels_mut<S: Sample>(self, samples: &mut [S]) -> PixelsMut<'_, S> {
+        PixelsMut::with_stride(samples, self.channels, [self.width, self.height], self.stride).unwrap()
+    }
+}
+
 /// What a sample's distance from the one wanted may be.
 trait Near: Sample {
     fn is_near(self, want: Self) -> bool;
@@ -168,18 +187,13 @@ fn laid_out<S: Sample>(rgba: &[f32], channels: Channels, width: usize, gap: usiz
     (samples, layout)
 }
 
-fn follows<S: Near, T: Near>(
-    form: &(impl PixelMap + BlockMap),
-    level: Level,
-    [here, there]: [Channels; 2],
-    width: usize,
-) {
+fn follows<S: Near, T: Near>(form: &impl PixelMap, level: SimdLevel, [here, there]: [Channels; 2], width: usize) {
     let gap = width % 3 * 5;
     let rgba = scene(3 * width);
     let (from, from_layout) = laid_out::<S>(&rgba, here, width, gap);
     let (mut to, to_layout) = laid_out::<T>(&[], there, width, gap);
     let before = to.clone();
-    map(form, level, (&from, from_layout), (&mut to, to_layout));
+    form.map_on(level, &from_layout.pixels(&from), &mut to_layout.pixels_mut(&mut to)).unwrap();
     for (at, (to, before)) in to.iter().zip(&before).enumerate() {
         let [row, column] = [at / to_layout.stride.max(1), at % to_layout.stride.max(1)];
         let [pixel, channel] = [column / there.count(), column % there.count()];
@@ -201,16 +215,16 @@ fn follows<S: Near, T: Near>(
             continue;
         }
         let rgb = [from[0].to_f32(), from[1].to_f32(), from[2].to_f32()];
-        let want = T::from_f32(PixelMap::apply(form, rgb)[channel]);
-        assert!(to.is_near(want), "{level:?} {rgb:?}: {} for {}", to.to_f32(), want.to_f32());
+        let want = T::from_f32(form.apply(rgb)[channel]);
+        assert!(to.is_near(want), "{} {rgb:?}: {} for {}", level.name(), to.to_f32(), want.to_f32());
     }
 }
 
-fn in_place_follows<S: Near>(form: &impl BlockMap, level: Level, channels: Channels, width: usize) {
+fn in_place_follows<S: Near>(form: &impl PixelMap, level: SimdLevel, channels: Channels, width: usize) {
     let (mut from, layout) = laid_out::<S>(&scene(3 * width), channels, width, 7);
     let mut to = from.clone();
-    map(form, level, (&from, layout), (&mut to, layout));
-    map_in_place(form, level, &mut from, layout);
+    form.map_on(level, &layout.pixels(&from), &mut layout.pixels_mut(&mut to)).unwrap();
+    form.map_in_place_on(level, &mut layout.pixels_mut(&mut from));
     let bits = |samples: &[S]| samples.iter().map(|s| s.bits()).collect::<Vec<_>>();
     assert_eq!(bits(&from), bits(&to));
 }
@@ -226,8 +240,8 @@ const WIDTHS: [usize; 7] = [1, 7, 8, 127, 128, 129, 1000];
 
 #[test]
 fn every_form_on_every_level_follows_its_scalar_definition() {
-    fn all(form: &(impl PixelMap + BlockMap)) {
-        for level in levels() {
+    fn all(form: &impl PixelMap) {
+        for level in SimdLevel::available() {
             for (channels, width) in CHANNELS.into_iter().flat_map(|c| WIDTHS.map(|w| (c, w))) {
                 follows::<f32, f32>(form, level, channels, width);
                 follows::<f32, u8>(form, level, channels, width);
@@ -248,7 +262,7 @@ fn tables_of_every_length_in_memory_are_read_alike() {
     for size in [2, 40, 41, 80, 81] {
         for how in [Interpolation::Tetrahedral, Interpolation::Trilinear] {
             let form = PlainLut::new(Shaper::log2(0.02, 16.0).unwrap(), table(size), how);
-            for level in levels() {
+            for level in SimdLevel::available() {
                 follows::<f32, f32>(&form, level, [Channels::Rgba; 2], 129);
                 follows::<f32, f32>(&form, level, [Channels::Rgb; 2], 129);
             }
@@ -288,8 +302,8 @@ fn instructions_can_be_chosen() {
     let (form, rgba) = (plain(Interpolation::Tetrahedral), scene(1000));
     let of = |level: SimdLevel| {
         let mut to = vec![0.0_f32; rgba.len()];
-        let from = crate::Pixels::new(&rgba, Channels::Rgba, [1000, 1]).unwrap();
-        form.map_on(level, &from, &mut crate::PixelsMut::new(&mut to, Channels::Rgba, [1000, 1]).unwrap()).unwrap();
+        let from = Pixels::new(&rgba, Channels::Rgba, [1000, 1]).unwrap();
+        form.map_on(level, &from, &mut PixelsMut::new(&mut to, Channels::Rgba, [1000, 1]).unwrap()).unwrap();
         to.into_iter().map(f32::to_bits).collect::<Vec<_>>()
     };
     let available = SimdLevel::available();
@@ -302,7 +316,7 @@ fn instructions_can_be_chosen() {
 
 #[test]
 fn every_pair_of_sample_types_follows() {
-    fn from<S: Near>(form: &PlainLut, level: Level, channels: [Channels; 2], width: usize) {
+    fn from<S: Near>(form: &PlainLut, level: SimdLevel, channels: [Channels; 2], width: usize) {
         follows::<S, f32>(form, level, channels, width);
         follows::<S, f16>(form, level, channels, width);
         follows::<S, u16>(form, level, channels, width);
@@ -310,7 +324,7 @@ fn every_pair_of_sample_types_follows() {
         in_place_follows::<S>(form, level, channels[0], width);
     }
     let form = plain(Interpolation::Tetrahedral);
-    for level in levels() {
+    for level in SimdLevel::available() {
         for (channels, width) in CHANNELS.into_iter().flat_map(|c| WIDTHS.map(|w| (c, w))) {
             from::<f32>(&form, level, channels, width);
             from::<f16>(&form, level, channels, width);
@@ -322,16 +336,17 @@ fn every_pair_of_sample_types_follows() {
 
 #[test]
 fn alpha_comes_back_bit_for_bit() {
-    fn all<S: Near>(samples: impl Iterator<Item = S>, level: Level) {
+    fn all<S: Near>(samples: impl Iterator<Item = S>, level: SimdLevel) {
         let pixels: Vec<S> = samples.flat_map(|a| [S::default(), S::default(), S::default(), a]).collect();
         let layout = Layout { channels: Channels::Rgba, width: pixels.len() / 4, height: 1, stride: pixels.len() };
         let mut to = vec![S::default(); pixels.len()];
-        map(&plain(Interpolation::Tetrahedral), level, (&pixels, layout), (&mut to, layout));
+        let form = plain(Interpolation::Tetrahedral);
+        form.map_on(level, &layout.pixels(&pixels), &mut layout.pixels_mut(&mut to)).unwrap();
         for (to, from) in to.iter().zip(&pixels).skip(3).step_by(4) {
             assert_eq!(to.bits(), from.bits());
         }
     }
-    for level in levels() {
+    for level in SimdLevel::available() {
         all(0..=u8::MAX, level);
         all(0..=u16::MAX, level);
         all((0..=u16::MAX).map(f16::from_bits), level);
@@ -341,23 +356,24 @@ fn alpha_comes_back_bit_for_bit() {
 
 #[test]
 fn hard_numbers_count_as_stated() {
-    fn same(form: &dyn BlockMap, level: Level, hard: [f32; 3], plain: [f32; 3]) {
+    fn same(form: &impl PixelMap, level: SimdLevel, hard: [f32; 3], plain: [f32; 3]) {
         let mut both = [hard, plain];
         let layout = Layout { channels: Channels::Rgb, width: 2, height: 1, stride: 6 };
-        map_in_place(form, level, both.as_flattened_mut(), layout);
+        form.map_in_place_on(level, &mut layout.pixels_mut(both.as_flattened_mut()));
         assert!(both[0].iter().all(|v| v.is_finite()), "{hard:?}");
         assert_eq!(both[0], both[1], "{hard:?} for {plain:?}");
     }
-    let (plain, structured, direct) =
-        (plain(Interpolation::Tetrahedral), structured(density(), mix()), direct(print()));
-    let forms: [&dyn BlockMap; 3] = [&plain, &structured, &direct];
-    for level in levels() {
-        for form in forms {
-            same(form, level, [f32::NAN, -f32::NAN, 0.5], [0.0, 0.0, 0.5]);
-            same(form, level, [f32::INFINITY, 0.5, f32::NEG_INFINITY], [1e30, 0.5, -1e30]);
-            same(form, level, [f32::MAX, 0.5, f32::MIN], [1e30, 0.5, -1e30]);
-            same(form, level, [-0.0, 1e-45, 0.18], [0.0, 0.0, 0.18]);
-        }
+    fn all(form: &impl PixelMap, level: SimdLevel) {
+        same(form, level, [f32::NAN, -f32::NAN, 0.5], [0.0, 0.0, 0.5]);
+        same(form, level, [f32::INFINITY, 0.5, f32::NEG_INFINITY], [1e30, 0.5, -1e30]);
+        same(form, level, [f32::MAX, 0.5, f32::MIN], [1e30, 0.5, -1e30]);
+        same(form, level, [-0.0, 1e-45, 0.18], [0.0, 0.0, 0.18]);
+    }
+    let plain = plain(Interpolation::Tetrahedral);
+    for level in SimdLevel::available() {
+        all(&plain, level);
+        all(&structured(density(), mix()), level);
+        all(&direct(print()), level);
         same(&plain, level, [-5.0, 17.0, 1.0], [0.0, 16.0, 1.0]);
     }
 }
@@ -369,7 +385,7 @@ fn eight_bits_seldom_differ() {
     let layout = Layout { channels: Channels::Rgba, width: 40_000, height: 1, stride: 160_000 };
     let form = plain(Interpolation::Tetrahedral);
     let mut to = vec![0_u8; rgba.len()];
-    map(&form, Level::new(), (&rgba, layout), (&mut to, layout));
+    form.map(&layout.pixels(&rgba), &mut layout.pixels_mut(&mut to)).unwrap();
     let differ = rgba
         .as_chunks::<4>()
         .0
@@ -385,8 +401,8 @@ fn no_pixels_are_no_trouble() {
     let form = plain(Interpolation::Tetrahedral);
     for [width, height] in [[0, 0], [0, 3], [3, 0]] {
         let layout = Layout { channels: Channels::Rgba, width, height, stride: 4 * width };
-        map::<f32, u8>(&form, Level::new(), (&[], layout), (&mut [], layout));
-        map_in_place::<f32>(&form, Level::new(), &mut [], layout);
+        form.map::<f32, u8>(&layout.pixels(&[]), &mut layout.pixels_mut(&mut [])).unwrap();
+        form.map_in_place::<f32>(&mut layout.pixels_mut(&mut []));
     }
     form.map_colours(&mut []);
 }
