@@ -3,7 +3,7 @@ mod write;
 
 use onelight_lut::{Domain, Interpolation, Lut1d, Lut3d, PlainLut};
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::text::one_line;
 
 /// The most bytes of a title or comment that are written, so that lines stay within the 250 bytes of the
@@ -74,7 +74,7 @@ impl CubeFile {
     pub fn from_both(lut1d: Lut1d, domain: Domain, lut3d: Lut3d) -> Result<Self, Error> {
         for (what, domain) in [("1D table", lut1d.domain()), ("3D table", &domain)] {
             if domain.as_common().is_none() {
-                return Err(Kind::DomainsDiffer { what, min: domain.min(), max: domain.max() }.into());
+                return Err(ErrorKind::DomainsDiffer { what, min: domain.min(), max: domain.max() }.into());
             }
         }
         Ok(Self::with_tables(Some(lut1d), Some((domain, lut3d))))

@@ -25,7 +25,7 @@ use onelight_lut::{
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::error::{Error, Kind, TextProblem};
+use crate::error::{Error, ErrorKind, TextProblem};
 use crate::text::{foreign_message, quoted, read_text};
 use limited::Limited;
 
@@ -235,12 +235,12 @@ fn sum(part: &'static str, terms: &Terms) -> Result<ExponentialSum, Error> {
 }
 
 fn of_part(part: &'static str, error: onelight_lut::Error) -> Error {
-    Kind::Table { part: Some(part), error }.into()
+    ErrorKind::Table { part: Some(part), error }.into()
 }
 
 /// A key of the file with a value for which this reader was not made.
 fn unexpected(what: &'static str, found: String, expected: &'static str) -> Error {
-    Kind::Key { what, found, expected }.into()
+    ErrorKind::Key { what, found, expected }.into()
 }
 
 /// What the JSON reader says, with its line.

@@ -16,63 +16,63 @@ use std::{error, fmt, io};
 /// # }
 /// ```
 #[derive(Debug)]
-pub struct Error(Box<Kind>);
+pub struct Error(Box<ErrorKind>);
 
 impl Error {
     /// Whether reading or writing itself failed; the message ends with the cause.
     pub fn is_io(&self) -> bool {
-        matches!(*self.0, Kind::Io(_))
+        matches!(*self.0, ErrorKind::Io(_))
     }
 
     /// Whether the text of a file is at fault; [`Error::line`] says where, unless the whole text is of another kind.
     pub fn is_text(&self) -> bool {
-        matches!(*self.0, Kind::Text { .. } | Kind::Key { .. })
+        matches!(*self.0, ErrorKind::Text { .. } | ErrorKind::Key { .. })
     }
 
     /// Whether a picture that should hold a table is at fault.
     pub fn is_picture(&self) -> bool {
-        matches!(*self.0, Kind::Picture { .. })
+        matches!(*self.0, ErrorKind::Picture { .. })
     }
 
     /// Whether a file is larger than is read.
     pub fn is_too_large(&self) -> bool {
-        matches!(*self.0, Kind::TextBytes { .. })
+        matches!(*self.0, ErrorKind::TextBytes { .. })
     }
 
     /// Whether numbers are at fault that the file's text may hold and a table or a form may not, or the file's kind may not:
     /// entries beyond ±1e38, a size without a Hald, a value that is infinite as a half.
     pub fn is_table(&self) -> bool {
         match *self.0 {
-            Kind::Table { .. }
-            | Kind::DomainsDiffer { .. }
-            | Kind::HaldSize { .. }
-            | Kind::Shaper { .. }
-            | Kind::Half { .. } => true,
-            Kind::Text { .. }
-            | Kind::Key { .. }
-            | Kind::TextBytes { .. }
-            | Kind::CommentBytes { .. }
-            | Kind::Picture { .. } => false,
-            Kind::Io(_) => false,
+            ErrorKind::Table { .. }
+            | ErrorKind::DomainsDiffer { .. }
+            | ErrorKind::HaldSize { .. }
+            | ErrorKind::Shaper { .. }
+            | ErrorKind::Half { .. } => true,
+            ErrorKind::Text { .. }
+            | ErrorKind::Key { .. }
+            | ErrorKind::TextBytes { .. }
+            | ErrorKind::CommentBytes { .. }
+            | ErrorKind::Picture { .. } => false,
+            ErrorKind::Io(_) => false,
         }
     }
 
     /// The line of the file, counted from 1, where the fault was noticed.
     pub fn line(&self) -> Option<usize> {
         match *self.0 {
-            Kind::Text { line, .. } => Some(line),
+            ErrorKind::Text { line, .. } => Some(line),
             _ => None,
         }
     }
 
     pub(crate) fn text(line: usize, problem: TextProblem) -> Self {
-        Kind::Text { line, problem }.into()
+        ErrorKind::Text { line, problem }.into()
     }
 }
 
 /// The reasons behind an [`Error`].
 #[derive(Debug)]
-pub(crate) enum Kind {
+pub(crate) enum ErrorKind {
     /// What a table or a form refused; `part` of the file is named where there are several.
     Table {
         part: Option<&'static str>,
@@ -193,21 +193,21 @@ pub(crate) enum TextProblem {
     Table(onelight_lut::Error),
 }
 
-impl From<Kind> for Error {
-    fn from(kind: Kind) -> Self {
+impl From<ErrorKind> for Error {
+    fn from(kind: ErrorKind) -> Self {
         Self(Box::new(kind))
     }
 }
 
 impl From<onelight_lut::Error> for Error {
     fn from(error: onelight_lut::Error) -> Self {
-        Kind::Table { part: None, error }.into()
+        ErrorKind::Table { part: None, error }.into()
     }
 }
 
 impl From<io::Error> for Error {
     fn from(error: io::Error) -> Self {
-        Kind::Io(error).into()
+        ErrorKind::Io(error).into()
     }
 }
 
@@ -215,8 +215,8 @@ impl error::Error for Error {
     fn source(&self) -> Option<&(dyn error::Error + 'static)> {
         // The message holds the cause already: said once, however the chain is printed.
         match &*self.0 {
-            Kind::Io(error) => error.source(),
-            Kind::Table { error, .. } => error.source(),
+            ErrorKind::Io(error) => error.source(),
+            ErrorKind::Table { error, .. } => error.source(),
             _ => None,
         }
     }
@@ -225,34 +225,34 @@ impl error::Error for Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &*self.0 {
-            Kind::Table { part: Some(part), error } => write!(f, "{part}: {error}"),
-            Kind::Table { part: None, error } => write!(f, "{error}"),
-            Kind::DomainsDiffer { what, min, max } => write!(
+            ErrorKind::Table { part: Some(part), error } => write!(f, "{part}: {error}"),
+            ErrorKind::Table { part: None, error } => write!(f, "{error}"),
+            ErrorKind::DomainsDiffer { what, min, max } => write!(
                 f,
                 "domain of the {what} in a .cube file with two tables: found {min:?} to {max:?}, expected one range for all channels"
             ),
-            Kind::HaldSize { found } => write!(
+            ErrorKind::HaldSize { found } => write!(
                 f,
                 "size of a table for a Hald CLUT: found {found}, expected the square of a level from 2 to 16, such as 25, 36, 49 or 64"
             ),
-            Kind::Shaper { found } => {
+            ErrorKind::Shaper { found } => {
                 write!(f, "shaper of a plain LUT: found {found:?}, expected a logarithm with an offset")
             }
-            Kind::Half { node, found } => write!(
+            ErrorKind::Half { node, found } => write!(
                 f,
                 "entry of a 3D LUT at node {node:?}: found {found:?}, expected numbers within ±65504 for a half"
             ),
-            Kind::Text { line, problem } => write!(f, "line {line}: {problem}"),
-            Kind::TextBytes { max } => {
+            ErrorKind::Text { line, problem } => write!(f, "line {line}: {problem}"),
+            ErrorKind::TextBytes { max } => {
                 write!(f, "text of a LUT file: found more than {max} bytes, expected at most {max}")
             }
-            Kind::CommentBytes { found, max } => {
+            ErrorKind::CommentBytes { found, max } => {
                 write!(f, "bytes of comments: found {found}, expected at most {max}")
             }
-            Kind::Picture { what, found, expected } | Kind::Key { what, found, expected } => {
+            ErrorKind::Picture { what, found, expected } | ErrorKind::Key { what, found, expected } => {
                 write!(f, "{what}: found {found}, expected {expected}")
             }
-            Kind::Io(error) => write!(f, "reading or writing a LUT file: {error}"),
+            ErrorKind::Io(error) => write!(f, "reading or writing a LUT file: {error}"),
         }
     }
 }

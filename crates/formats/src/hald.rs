@@ -4,7 +4,7 @@ use std::io::{Read, Write};
 
 use onelight_lut::Lut3d;
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::picture::{self, PngDepth, refuse};
 
 /// The lowest and highest level: tables of 4 and of 256 nodes a side.
@@ -37,7 +37,7 @@ pub fn write<S: AsRef<str>>(
     comments: impl IntoIterator<Item = S>,
 ) -> Result<(), Error> {
     let size = table.size();
-    let level = LEVELS.into_iter().find(|level| level * level == size).ok_or(Kind::HaldSize { found: size })?;
+    let level = LEVELS.into_iter().find(|level| level * level == size).ok_or(ErrorKind::HaldSize { found: size })?;
     picture::write(writer, [level * size; 2], depth, table.entries(), comments)
 }
 

@@ -6,7 +6,7 @@ use half::f16;
 
 use onelight_lut::Lut3d;
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::node_order::node_at;
 use crate::text::printable;
 
@@ -53,7 +53,7 @@ pub fn write<S: AsRef<str>>(
     let too_large = |entry: [f32; 3]| entry.iter().any(|&v| !f16::from_f32(v).is_finite());
     for (index, found) in table.entries().enumerate() {
         if too_large(found) {
-            return Err(Kind::Half { node: node_at(index, size), found }.into());
+            return Err(ErrorKind::Half { node: node_at(index, size), found }.into());
         }
     }
     let comments: Vec<String> = comments.into_iter().map(|text| printable(text.as_ref())).collect();
@@ -156,5 +156,5 @@ fn length(bytes: usize) -> Result<u32, Error> {
     if bytes <= MAX {
         return Ok(bytes as u32);
     }
-    Err(Kind::CommentBytes { found: bytes, max: MAX }.into())
+    Err(ErrorKind::CommentBytes { found: bytes, max: MAX }.into())
 }

@@ -2,7 +2,7 @@ use std::io::{Cursor, Read, Write};
 
 use png::{BitDepth, ColorType, Decoder, DecodingError, Encoder, EncodingError, Limits, Transformations};
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::text::{foreign_message, printable};
 
 /// The most bytes of a PNG file that are read.
@@ -137,7 +137,7 @@ fn colours<const N: usize>(channels: usize, bytes: &[u8], value: impl Fn([u8; N]
 
 /// The error for a picture that is not a table.
 pub(super) fn refuse(what: &'static str, found: String, expected: &'static str) -> Error {
-    Kind::Picture { what, found, expected }.into()
+    ErrorKind::Picture { what, found, expected }.into()
 }
 
 fn decoding(error: &DecodingError) -> Error {

@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use crate::error::TextProblem;
 #[cfg(any(feature = "clf", feature = "spi3d", feature = "direct-json"))]
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 
 /// Entries reserved at once: a size in a header is a claim until its numbers have come.
 pub(crate) const RESERVED: usize = 1 << 16;
@@ -21,7 +21,7 @@ pub(crate) fn read_text(input: impl Read, max: u64) -> Result<String, Error> {
     let mut bytes = Vec::new();
     input.take(max.saturating_add(1)).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > max {
-        return Err(Kind::TextBytes { max }.into());
+        return Err(ErrorKind::TextBytes { max }.into());
     }
     let text = String::from_utf8(bytes).unwrap_or_else(|bad| String::from_utf8_lossy(bad.as_bytes()).into_owned());
     Ok(match text.strip_prefix('\u{feff}') {

@@ -2,7 +2,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::lut3d::{Lut3d, first_not_finite, node_count, node_of};
 use crate::pixels::{Channels, PixelMap, PixelsMut};
 use crate::shaper::Shaper;
@@ -88,7 +88,7 @@ fn along_axis(
         Some(index) => {
             let node = node_of(index, size);
             let linear = node.map(|i| axis[i]);
-            Err(Kind::BakedNode { node, linear, found: entries[index] }.into())
+            Err(ErrorKind::BakedNode { node, linear, found: entries[index] }.into())
         }
         None => Lut3d::new(size, entries),
     }

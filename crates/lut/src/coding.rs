@@ -1,4 +1,4 @@
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::number::Number;
 
 /// The transfer curve of an output as two numbers: a power with a straight foot, odd about 0.
@@ -50,7 +50,7 @@ impl PowerCoding {
     /// # Errors
     /// If the exponent is outside 1 to 10, or the offset outside 0 to 0.9; an exponent of 1 needs an offset of 0.
     pub fn new(exponent: f64, offset: f64) -> Result<Self, Error> {
-        let refuse = |what, found, expected| Err(Kind::Parameter { what, found, expected }.into());
+        let refuse = |what, found, expected| Err(ErrorKind::Parameter { what, found, expected }.into());
         if !(1.0..=10.0).contains(&exponent) {
             return refuse("exponent of a coding", exponent, "a number from 1 to 10");
         }

@@ -1,4 +1,4 @@
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use rayon::prelude::*;
 
 /// How far one map lies from another over a set of samples, in the unit of the difference that was given.
@@ -73,13 +73,13 @@ impl Deviation {
     /// [`Deviation::of`], and which sample is the worst.
     pub(crate) fn with_worst_index(samples: &[[f64; 3]], mut differences: Vec<f64>) -> Result<(Self, usize), Error> {
         if samples.len() != differences.len() {
-            return Err(Kind::DifferenceCount { found: differences.len(), expected: samples.len() }.into());
+            return Err(ErrorKind::DifferenceCount { found: differences.len(), expected: samples.len() }.into());
         }
         let mut sum = 0.0;
         let mut largest: Option<(f64, usize)> = None;
         for (index, (&found, &sample)) in differences.iter().zip(samples).enumerate() {
             if !found.is_finite() {
-                return Err(Kind::Difference { index, sample, found }.into());
+                return Err(ErrorKind::Difference { index, sample, found }.into());
             }
             sum += found;
             if largest.is_none_or(|(max, _)| found > max) {
@@ -87,7 +87,7 @@ impl Deviation {
             }
         }
         let Some((max, worst_index)) = largest else {
-            return Err(Kind::NoSamples.into());
+            return Err(ErrorKind::NoSamples.into());
         };
         differences.par_sort_unstable_by(f64::total_cmp);
         let count = differences.len();

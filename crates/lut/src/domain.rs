@@ -1,4 +1,4 @@
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::number::Number;
 
 /// The box of inputs that a table covers: per channel, the input of its first and of its last entry.
@@ -29,7 +29,7 @@ impl Domain {
             let span = max - min;
             min.is_finite() && max.is_finite() && span.is_finite() && span > 0.0
         });
-        if spans { Ok(Self { min, max }) } else { Err(Kind::Domain { min, max }.into()) }
+        if spans { Ok(Self { min, max }) } else { Err(ErrorKind::Domain { min, max }.into()) }
     }
 
     /// A domain with the same ends in every channel.

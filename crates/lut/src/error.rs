@@ -9,11 +9,11 @@ use std::{error, fmt};
 /// assert_eq!(error.to_string(), "size of the 3D LUT: found 1, expected 2 to 256");
 /// ```
 #[derive(Debug)]
-pub struct Error(Box<Kind>);
+pub struct Error(Box<ErrorKind>);
 
 /// The reasons behind an [`Error`].
 #[derive(Debug)]
-pub(crate) enum Kind {
+pub(crate) enum ErrorKind {
     Parameter { what: &'static str, found: f64, expected: &'static str },
     Size { what: &'static str, found: usize, min: usize, max: usize },
     EntryCount { size: usize, found: usize, expected: usize },
@@ -28,8 +28,8 @@ pub(crate) enum Kind {
     PictureSizes { from: [usize; 2], to: [usize; 2] },
 }
 
-impl From<Kind> for Error {
-    fn from(kind: Kind) -> Self {
+impl From<ErrorKind> for Error {
+    fn from(kind: ErrorKind) -> Self {
         Self(Box::new(kind))
     }
 }
@@ -39,41 +39,41 @@ impl error::Error for Error {}
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &*self.0 {
-            Kind::Parameter { what, found, expected } => write!(f, "{what}: found {found}, expected {expected}"),
-            Kind::Size { what, found, min, max } => {
+            ErrorKind::Parameter { what, found, expected } => write!(f, "{what}: found {found}, expected {expected}"),
+            ErrorKind::Size { what, found, min, max } => {
                 write!(f, "size of the {what}: found {found}, expected {min} to {max}")
             }
-            Kind::EntryCount { size, found, expected } => {
+            ErrorKind::EntryCount { size, found, expected } => {
                 write!(f, "entries of a 3D LUT of size {size}: found {found}, expected {expected}")
             }
-            Kind::Entry1d { index, found } => {
+            ErrorKind::Entry1d { index, found } => {
                 write!(f, "entry {index} of a 1D LUT: found {found:?}, expected numbers within ±1e38")
             }
-            Kind::Entry3d { node, found } => {
+            ErrorKind::Entry3d { node, found } => {
                 write!(f, "entry of a 3D LUT at node {node:?}: found {found:?}, expected numbers within ±1e38")
             }
-            Kind::PixelLayout { width, height, channels, stride, len } => write!(
+            ErrorKind::PixelLayout { width, height, channels, stride, len } => write!(
                 f,
                 "picture of {width}x{height} pixels, {channels} samples each, rows {stride} samples apart: found {len} samples, expected at least as many as that takes, and rows no longer than their distance"
             ),
-            Kind::PictureSizes { from, to } => write!(
+            ErrorKind::PictureSizes { from, to } => write!(
                 f,
                 "size of the picture to write: found {}x{}, expected {}x{} as in the one to read",
                 to[0], to[1], from[0], from[1]
             ),
-            Kind::BakedNode { node, linear, found } => write!(
+            ErrorKind::BakedNode { node, linear, found } => write!(
                 f,
                 "baked function at node {node:?}, linear {linear:?}: found {found:?}, expected numbers finite in f32"
             ),
-            Kind::Domain { min, max } => write!(
+            ErrorKind::Domain { min, max } => write!(
                 f,
                 "domain of a table: found {min:?} to {max:?}, expected finite ends with the second above the first"
             ),
-            Kind::NoSamples => f.write_str("samples of a deviation: found none, expected at least one"),
-            Kind::Difference { index, sample, found } => {
+            ErrorKind::NoSamples => f.write_str("samples of a deviation: found none, expected at least one"),
+            ErrorKind::Difference { index, sample, found } => {
                 write!(f, "difference at sample {index}, {sample:?}: found {found}, expected a finite number")
             }
-            Kind::DifferenceCount { found, expected } => {
+            ErrorKind::DifferenceCount { found, expected } => {
                 write!(f, "differences of a deviation: found {found}, expected {expected}, one for each sample")
             }
         }

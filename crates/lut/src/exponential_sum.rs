@@ -1,4 +1,4 @@
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::number::Number;
 use crate::scene_light::check_rows;
 
@@ -36,7 +36,7 @@ impl ExponentialSum {
     pub fn new(terms: Vec<ExponentialTerm>) -> Result<Self, Error> {
         if terms.is_empty() || terms.len() > Self::MAX_TERMS {
             let (found, max) = (terms.len(), Self::MAX_TERMS);
-            return Err(Kind::Size { what: "sum of exponentials", found, min: 1, max }.into());
+            return Err(ErrorKind::Size { what: "sum of exponentials", found, min: 1, max }.into());
         }
         for term in &terms {
             check_rows("term of a sum of exponentials", &[term.rate, term.weight, [0.0; 3]])?;

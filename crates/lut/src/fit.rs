@@ -1,6 +1,6 @@
 use rayon::prelude::*;
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::interpolate::{Interpolation, Weights, weights};
 use crate::lut3d::Lut3d;
 
@@ -70,11 +70,11 @@ pub fn fit(
     settings: FitSettings,
 ) -> Result<Lut3d, Error> {
     if samples.is_empty() {
-        return Err(Kind::NoSamples.into());
+        return Err(ErrorKind::NoSamples.into());
     }
     if !(0.0..=1e12).contains(&settings.hold) {
         let (found, expected) = (settings.hold, "a number from 0 to 1e12");
-        return Err(Kind::Parameter { what: "hold of a fit", found, expected }.into());
+        return Err(ErrorKind::Parameter { what: "hold of a fit", found, expected }.into());
     }
     let system = System::new(start, interpolation, samples, settings.hold);
     let mut importance = vec![1.0; samples.len()];

@@ -1,5 +1,5 @@
 use crate::domain::Domain;
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::interpolate::cell;
 use crate::interpolate::is_entry;
 use crate::number::Number;
@@ -37,7 +37,7 @@ impl Lut1d {
     pub fn new(domain: Domain, entries: Vec<[f32; 3]>) -> Result<Self, Error> {
         check_size(entries.len())?;
         match entries.iter().position(|e| !is_entry(e)) {
-            Some(index) => Err(Kind::Entry1d { index, found: entries[index] }.into()),
+            Some(index) => Err(ErrorKind::Entry1d { index, found: entries[index] }.into()),
             None => Ok(Self { domain, entries }),
         }
     }
@@ -97,7 +97,7 @@ pub(crate) fn check_size(found: usize) -> Result<(), Error> {
     if (Lut1d::MIN_SIZE..=Lut1d::MAX_SIZE).contains(&found) {
         Ok(())
     } else {
-        Err(Kind::Size { what: "1D LUT", found, min: Lut1d::MIN_SIZE, max: Lut1d::MAX_SIZE }.into())
+        Err(ErrorKind::Size { what: "1D LUT", found, min: Lut1d::MIN_SIZE, max: Lut1d::MAX_SIZE }.into())
     }
 }
 

@@ -1,4 +1,4 @@
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::interpolate::{Interpolation, Place, is_entry, tetrahedral, trilinear, weights};
 use crate::padded::Padded;
 
@@ -42,10 +42,10 @@ impl Lut3d {
         let expected = node_count(size)?;
         let found = entries.len();
         if found != expected {
-            return Err(Kind::EntryCount { size, found, expected }.into());
+            return Err(ErrorKind::EntryCount { size, found, expected }.into());
         }
         match first_not_finite(&entries) {
-            Some(index) => Err(Kind::Entry3d { node: node_of(index, size), found: entries[index] }.into()),
+            Some(index) => Err(ErrorKind::Entry3d { node: node_of(index, size), found: entries[index] }.into()),
             None => Ok(Self { size, entries: Padded::new(&entries) }),
         }
     }
@@ -123,7 +123,7 @@ pub(crate) fn node_count(size: usize) -> Result<usize, Error> {
     if (Lut3d::MIN_SIZE..=Lut3d::MAX_SIZE).contains(&size) {
         Ok(size * size * size)
     } else {
-        Err(Kind::Size { what: "3D LUT", found: size, min: Lut3d::MIN_SIZE, max: Lut3d::MAX_SIZE }.into())
+        Err(ErrorKind::Size { what: "3D LUT", found: size, min: Lut3d::MIN_SIZE, max: Lut3d::MAX_SIZE }.into())
     }
 }
 

@@ -1,6 +1,6 @@
 //! Scene light in float32, as every form takes it.
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::number::Number;
 
 /// A 3x3 matrix, row by row: `out[i] = sum over k of rows[i][k] in[k]`.
@@ -55,7 +55,7 @@ pub(crate) fn times<N: Number>(rows: &Rows, [x, y, z]: [N; 3]) -> [N; 3] {
 /// Refuses a matrix with a number that is not finite.
 pub(crate) fn check_rows(what: &'static str, rows: &Rows) -> Result<(), Error> {
     match rows.iter().flatten().find(|v| !v.is_finite()) {
-        Some(&found) => Err(Kind::Parameter { what, found: f64::from(found), expected: "a finite number" }.into()),
+        Some(&found) => Err(ErrorKind::Parameter { what, found: f64::from(found), expected: "a finite number" }.into()),
         None => Ok(()),
     }
 }

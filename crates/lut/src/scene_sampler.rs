@@ -1,6 +1,6 @@
 use std::ops::RangeInclusive;
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::split_mix64::SplitMix64;
 
 /// An endless, repeatable sequence of scene-linear colours for comparing maps.
@@ -51,11 +51,11 @@ impl SceneSampler {
         let [low, high] = [*stops.start(), *stops.end()];
         for (what, found) in [("lowest stop of a scene sampler", low), ("highest stop of a scene sampler", high)] {
             if !(-64.0..=64.0).contains(&found) {
-                return Err(Kind::Parameter { what, found, expected: "a number from -64 to 64" }.into());
+                return Err(ErrorKind::Parameter { what, found, expected: "a number from -64 to 64" }.into());
             }
         }
         if low > high {
-            return Err(Kind::Parameter {
+            return Err(ErrorKind::Parameter {
                 what: "highest minus lowest stop of a scene sampler",
                 found: high - low,
                 expected: "a number not below 0",

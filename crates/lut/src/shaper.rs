@@ -1,6 +1,6 @@
 mod log2_offset;
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use log2_offset::Log2Offset;
 pub(crate) use log2_offset::LogNumbers;
 
@@ -65,7 +65,7 @@ impl Shaper {
         positive("maximum of a log2 shaper", max)?;
         let ratio = max / offset;
         if !(1e-6..=1e12).contains(&ratio) {
-            return Err(Kind::Parameter {
+            return Err(ErrorKind::Parameter {
                 what: "maximum over offset of a log2 shaper",
                 found: ratio,
                 expected: "a ratio from 1e-6 to 1e12",
@@ -147,7 +147,7 @@ fn positive(what: &'static str, found: f64) -> Result<(), Error> {
     if (1e-30..=1e30).contains(&found) {
         Ok(())
     } else {
-        Err(Kind::Parameter { what, found, expected: "a number above 0, from 1e-30 to 1e30" }.into())
+        Err(ErrorKind::Parameter { what, found, expected: "a number above 0, from 1e-30 to 1e30" }.into())
     }
 }
 

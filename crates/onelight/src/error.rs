@@ -7,10 +7,10 @@ use std::fmt;
 /// assert!(error.is_unknown_stock() && error.to_string().contains("the nearest is kodak-5"));
 /// ```
 #[derive(Debug)]
-pub struct Error(Kind);
+pub struct Error(ErrorKind);
 
 #[derive(Debug)]
-pub(crate) enum Kind {
+pub(crate) enum ErrorKind {
     Spectra(onelight_spectra::Error),
     Film(onelight_film::Error),
     Printing(onelight_printing::Error),
@@ -44,100 +44,101 @@ impl Error {
     /// Whether no stock has the id that was asked for; the message names the nearest if there is a near one.
     #[must_use]
     pub fn is_unknown_stock(&self) -> bool {
-        matches!(self.0, Kind::UnknownStock { .. })
+        matches!(self.0, ErrorKind::UnknownStock { .. })
     }
 
     /// Whether the film cannot be brought to its aim.
     #[must_use]
     pub fn is_unreachable_aim(&self) -> bool {
-        matches!(&self.0, Kind::Unreachable(_))
-            || matches!(&self.0, Kind::Printing(error) if error.is_unreachable_aim())
+        matches!(&self.0, ErrorKind::Unreachable(_))
+            || matches!(&self.0, ErrorKind::Printing(error) if error.is_unreachable_aim())
     }
 
     /// Whether the parts of the process contradict each other, as a print for a reversal film does.
     #[must_use]
     pub fn is_contradiction(&self) -> bool {
-        matches!(&self.0, Kind::Contradiction(_)) || matches!(&self.0, Kind::Printing(error) if error.is_wrong_kind())
+        matches!(&self.0, ErrorKind::Contradiction(_))
+            || matches!(&self.0, ErrorKind::Printing(error) if error.is_wrong_kind())
     }
 
     /// Whether a number lay outside its range.
     #[must_use]
     pub fn is_setting(&self) -> bool {
-        matches!(self.0, Kind::Setting { .. })
+        matches!(self.0, ErrorKind::Setting { .. })
     }
 
     pub(crate) fn setting(what: &str, found: f64, low: f64, high: f64) -> Self {
-        Kind::Setting { what: what.to_owned(), found, expected: format!("{low} to {high}") }.into()
+        ErrorKind::Setting { what: what.to_owned(), found, expected: format!("{low} to {high}") }.into()
     }
 
     pub(crate) fn print_film_in_camera(id: &str) -> Self {
         let sentence = format!("{id} is a print film, expected a negative or reversal film in the camera");
-        Kind::Contradiction(sentence).into()
+        ErrorKind::Contradiction(sentence).into()
     }
 
     /// Whether a description could not be read: an unknown key or word, a wrong version, no TOML.
     #[must_use]
     pub fn is_look(&self) -> bool {
-        matches!(self.0, Kind::Look { .. } | Kind::Word { .. })
+        matches!(self.0, ErrorKind::Look { .. } | ErrorKind::Word { .. })
     }
 }
 
-impl From<Kind> for Error {
-    fn from(kind: Kind) -> Self {
+impl From<ErrorKind> for Error {
+    fn from(kind: ErrorKind) -> Self {
         Self(kind)
     }
 }
 
 impl From<onelight_spectra::Error> for Error {
     fn from(error: onelight_spectra::Error) -> Self {
-        Self(Kind::Spectra(error))
+        Self(ErrorKind::Spectra(error))
     }
 }
 
 impl From<onelight_film::Error> for Error {
     fn from(error: onelight_film::Error) -> Self {
-        Self(Kind::Film(error))
+        Self(ErrorKind::Film(error))
     }
 }
 
 impl From<onelight_printing::Error> for Error {
     fn from(error: onelight_printing::Error) -> Self {
-        Self(Kind::Printing(error))
+        Self(ErrorKind::Printing(error))
     }
 }
 
 impl From<onelight_lut::Error> for Error {
     fn from(error: onelight_lut::Error) -> Self {
-        Self(Kind::Lut(error))
+        Self(ErrorKind::Lut(error))
     }
 }
 
 #[cfg(feature = "formats")]
 impl From<onelight_formats::Error> for Error {
     fn from(error: onelight_formats::Error) -> Self {
-        Self(Kind::Formats(error))
+        Self(ErrorKind::Formats(error))
     }
 }
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
-            Kind::Spectra(error) => error.fmt(f),
-            Kind::Film(error) => error.fmt(f),
-            Kind::Printing(error) => error.fmt(f),
-            Kind::Lut(error) => error.fmt(f),
+            ErrorKind::Spectra(error) => error.fmt(f),
+            ErrorKind::Film(error) => error.fmt(f),
+            ErrorKind::Printing(error) => error.fmt(f),
+            ErrorKind::Lut(error) => error.fmt(f),
             #[cfg(feature = "formats")]
-            Kind::Formats(error) => error.fmt(f),
-            Kind::Look { file, line, problem } => write!(f, "{file}:{line}: {problem}"),
-            Kind::Word { what, found, expected } => write!(f, "{what}: found {found:?}, expected {expected}"),
-            Kind::Setting { what, found, expected } => write!(f, "{what}: found {found}, expected {expected}"),
-            Kind::UnknownStock { found, nearest: Some(nearest) } => {
+            ErrorKind::Formats(error) => error.fmt(f),
+            ErrorKind::Look { file, line, problem } => write!(f, "{file}:{line}: {problem}"),
+            ErrorKind::Word { what, found, expected } => write!(f, "{what}: found {found:?}, expected {expected}"),
+            ErrorKind::Setting { what, found, expected } => write!(f, "{what}: found {found}, expected {expected}"),
+            ErrorKind::UnknownStock { found, nearest: Some(nearest) } => {
                 write!(f, "no stock is called {found:?}; the nearest is {nearest}")
             }
-            Kind::UnknownStock { found, nearest: None } => {
+            ErrorKind::UnknownStock { found, nearest: None } => {
                 write!(f, "no stock is called {found:?}, expected a maker and a number, such as kodak-5207")
             }
-            Kind::Contradiction(sentence) | Kind::Unreachable(sentence) => f.write_str(sentence),
+            ErrorKind::Contradiction(sentence) | ErrorKind::Unreachable(sentence) => f.write_str(sentence),
         }
     }
 }
@@ -146,12 +147,12 @@ impl std::error::Error for Error {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match &self.0 {
             // Their sentences are this error's own: only what lies behind them is new.
-            Kind::Spectra(error) => error.source(),
-            Kind::Film(error) => error.source(),
-            Kind::Printing(error) => error.source(),
-            Kind::Lut(error) => error.source(),
+            ErrorKind::Spectra(error) => error.source(),
+            ErrorKind::Film(error) => error.source(),
+            ErrorKind::Printing(error) => error.source(),
+            ErrorKind::Lut(error) => error.source(),
             #[cfg(feature = "formats")]
-            Kind::Formats(error) => error.source(),
+            ErrorKind::Formats(error) => error.source(),
             _ => None,
         }
     }

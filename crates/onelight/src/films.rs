@@ -1,6 +1,6 @@
 use onelight_film::{Stock, StockKind};
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::process::{FilmProcess, FirstProcess, Process, StockRef};
 use crate::stocks::stock;
 
@@ -110,5 +110,5 @@ fn built_in(film: &StockRef) -> Result<Stock, Error> {
 }
 
 fn refuse<T>(sentence: String) -> Result<T, Error> {
-    Err(Kind::Contradiction(sentence).into())
+    Err(ErrorKind::Contradiction(sentence).into())
 }

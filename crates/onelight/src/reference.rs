@@ -8,7 +8,7 @@ use onelight_spectra::quantity::Power;
 use onelight_spectra::{Basis, DisplayDifference, SpectralDistribution, SpectralShape, TransferCurve};
 
 use crate::about::About;
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::films::Films;
 use crate::process::{Approach, ColourSpaces, FilmProcess, Printing, Process};
 use crate::scene::SceneInput;
@@ -362,7 +362,7 @@ impl Process {
 
 /// The sentence for what needs the second approach.
 pub(crate) fn no_film(approach: Approach) -> Error {
-    Kind::Contradiction(format!(
+    ErrorKind::Contradiction(format!(
         "approach {} has no spectra, dyes or film curves, expected approach second",
         approach.word()
     ))

@@ -3,7 +3,7 @@ pub use onelight_spectra::SCENE_MAX;
 use onelight_spectra::{Chromaticity, RgbSpace};
 pub(crate) use onelight_spectra::{MID_GREY, finite};
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::word::WorkingSpace;
 
 /// Scene light on its way to a film: from the input's primaries to sRGB's, hard values cleaned.
@@ -17,7 +17,7 @@ impl SceneInput {
     pub(crate) fn new(input: WorkingSpace) -> Result<Self, Error> {
         let to_srgb = input.space().to_about(&RgbSpace::SRGB, Chromaticity::black_body_6500_k())?;
         let flat =
-            || Kind::Contradiction(format!("the primaries of {input:?} are on one line, expected three colours"));
+            || ErrorKind::Contradiction(format!("the primaries of {input:?} are on one line, expected three colours"));
         let from_srgb = to_srgb.try_inverse().ok_or_else(flat)?;
         Ok(Self { to_srgb, from_srgb })
     }

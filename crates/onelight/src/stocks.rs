@@ -1,6 +1,6 @@
 use onelight_film::{SheetText, Stock};
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::message::{cut, nearest};
 
 /// The ids of all built-in stocks: negatives, reversal films, print films.
@@ -21,7 +21,7 @@ pub fn stock_ids() -> impl Iterator<Item = &'static str> {
 /// If there is none (the message names the nearest if one is near).
 pub fn stock(id: &str) -> Result<Stock, Error> {
     let Some(files) = onelight_stocks::find(id) else {
-        return Err(Kind::UnknownStock { found: cut(id), nearest: nearest(id, stock_ids()) }.into());
+        return Err(ErrorKind::UnknownStock { found: cut(id), nearest: nearest(id, stock_ids()) }.into());
     };
     Ok(Stock::parse(&SheetText {
         id: files.id,

@@ -5,7 +5,7 @@ use onelight_lut::Storage;
 use onelight_printing::{Aim, HeatGlass, Infrared, PrinterLight, Projector, Wratten};
 use onelight_spectra::{Reconstruction, RgbSpace, TransferCurve};
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::message::{cut, nearest};
 
 /// A choice that has a word for each of its values.
@@ -38,7 +38,7 @@ pub trait Word: Copy + PartialEq + 'static {
         let words: Vec<&str> = Self::ALL.iter().map(|(_, word, _)| *word).collect();
         let meant = nearest(word, words.iter().copied()).map(|meant| format!(" (did you mean {meant:?}?)"));
         let expected = format!("one of {}{}", words.join(", "), meant.unwrap_or_default());
-        Err(Kind::Word { what: Self::KEY, found: cut(word), expected }.into())
+        Err(ErrorKind::Word { what: Self::KEY, found: cut(word), expected }.into())
     }
 }
 

@@ -1,6 +1,6 @@
 use super::ClfProcess;
 use super::op::{Direction, ExponentStyle, LogCurve, Op, Power, Range};
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use onelight_lut::{
     Decode, Domain, IDENTITY, Interpolation, LOG_FLOOR, Lut1d, Lut3d, Mix, PlainLut, PowerCoding, Rows, ShaperKind,
     StructuredLut,
@@ -53,7 +53,7 @@ impl ClfProcess {
     /// If the shaper is no [`ShaperKind::Log2Offset`], which is the only one today.
     pub fn from_plain(lut: &PlainLut) -> Result<Self, Error> {
         let ShaperKind::Log2Offset { offset, max } = lut.shaper().kind() else {
-            return Err(Kind::Shaper { found: lut.shaper().kind() }.into());
+            return Err(ErrorKind::Shaper { found: lut.shaper().kind() }.into());
         };
         let curve = LogCurve {
             log_slope: 1.0 / (1.0 + max / offset).log2(),

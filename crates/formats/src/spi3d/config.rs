@@ -3,7 +3,7 @@ use std::io::{BufWriter, Write};
 
 use onelight_lut::{Interpolation, PlainLut, ShaperKind};
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::text::one_line;
 
 /// An OpenColorIO configuration with two colour spaces: scene-linear, and the look that an `.spi3d` file holds.
@@ -72,7 +72,7 @@ impl Spi3dConfig {
     pub fn write(&self, writer: impl Write) -> Result<(), Error> {
         let mut out = BufWriter::new(writer);
         let ShaperKind::Log2Offset { offset, max } = self.shaper else {
-            return Err(Kind::Shaper { found: self.shaper }.into());
+            return Err(ErrorKind::Shaper { found: self.shaper }.into());
         };
         let stops = (1.0 + max / offset).log2();
         let interpolation = match self.interpolation {

@@ -2,7 +2,7 @@ use rayon::prelude::*;
 
 use super::sampling_law::SamplingLaw;
 use super::scene_coordinates::SceneCoordinates;
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 
 /// The first step along stops, saturation and sixths of hue: about half the distance of 2^14 colours along each,
 /// and less than a cell of a table of 32 nodes a side, so that a climb seldom jumps over the hill it stands on.
@@ -41,7 +41,7 @@ pub(super) fn largest(
         })?;
         climbs.sort_by(|a, b| b.value.total_cmp(&a.value).then(a.start.cmp(&b.start)));
     }
-    climbs.first().map(|climb| (climb.value, climb.colour)).ok_or_else(|| Kind::NoSamples.into())
+    climbs.first().map(|climb| (climb.value, climb.colour)).ok_or_else(|| ErrorKind::NoSamples.into())
 }
 
 /// Indices of the largest differences, largest first; equal ones in their order.
@@ -122,7 +122,7 @@ impl Climb {
         let colour = SceneCoordinates { stops, saturation, hue }.rgb();
         let value = measure(colour);
         if !value.is_finite() {
-            return Err(Kind::Difference { index: self.start, sample: colour, found: value }.into());
+            return Err(ErrorKind::Difference { index: self.start, sample: colour, found: value }.into());
         }
         let better = value > self.value;
         if better {

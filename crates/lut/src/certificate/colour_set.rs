@@ -1,6 +1,6 @@
 use super::compared::Compared;
 use crate::deviation::Deviation;
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 
 /// The exposures of every named colour, in stops about the colour as it was given.
 const STOPS: std::ops::RangeInclusive<i32> = -4..=4;
@@ -33,11 +33,11 @@ impl ColourSet {
     ) -> Result<Self, Error> {
         let colours: Vec<_> = colours.into_iter().map(|(name, colour)| (name.into(), colour)).collect();
         if colours.is_empty() {
-            return Err(Kind::NoSamples.into());
+            return Err(ErrorKind::NoSamples.into());
         }
         if let Some(&found) = colours.iter().flat_map(|(_, colour)| colour).find(|u| !u.is_finite()) {
             return Err(
-                Kind::Parameter { what: "channel of a named colour", found, expected: "a finite number" }.into()
+                ErrorKind::Parameter { what: "channel of a named colour", found, expected: "a finite number" }.into()
             );
         }
         Ok(Self { name: name.into(), colours })

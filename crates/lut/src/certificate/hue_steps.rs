@@ -1,6 +1,6 @@
 use super::compared::Compared;
 use super::scene_coordinates::SceneCoordinates;
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 
 /// The exposure of the largest channel on each circle, in stops about mid grey.
 const STOPS: [f64; 4] = [0.0, 2.0, 4.0, 6.0];
@@ -94,7 +94,7 @@ fn largest(values: impl Iterator<Item = f64>, what: &'static str) -> Result<(f64
     let mut found = (0.0, 0.0);
     for (index, value) in values.enumerate() {
         if !value.is_finite() {
-            return Err(Kind::Parameter { what, found: value, expected: "a finite number" }.into());
+            return Err(ErrorKind::Parameter { what, found: value, expected: "a finite number" }.into());
         }
         if value > found.0 {
             found = (value, index as f64 * 360.0 / STEPS as f64);

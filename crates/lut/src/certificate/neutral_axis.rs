@@ -2,7 +2,7 @@ use super::compared::Compared;
 use super::sampling_law::SamplingLaw;
 use super::scene_coordinates::grey;
 use crate::deviation::Deviation;
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 
 /// A map on greys, from the darkest to the brightest stop of the law.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,7 +72,7 @@ fn fall(
 ) -> Result<Fall, Error> {
     let luminances: Vec<f64> = values.iter().map(luminance).collect();
     if let Some(&found) = luminances.iter().find(|l| !l.is_finite()) {
-        return Err(Kind::Parameter { what, found, expected: "a finite number" }.into());
+        return Err(ErrorKind::Parameter { what, found, expected: "a finite number" }.into());
     }
     let mut largest = Fall::default();
     for (index, pair) in luminances.windows(2).enumerate() {

@@ -1,4 +1,4 @@
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 
 /// Which colours a [`Certificate`](crate::Certificate) looks at, so that figures can be compared.
 ///
@@ -48,7 +48,7 @@ impl SamplingLaw {
         ];
         for (what, found, min, max) in sizes {
             if !(min..=max).contains(&found) {
-                return Err(Kind::Size { what, found, min, max }.into());
+                return Err(ErrorKind::Size { what, found, min, max }.into());
             }
         }
         let widths = [
@@ -57,7 +57,7 @@ impl SamplingLaw {
         ];
         for (what, found) in widths {
             if !(1e-3..=128.0).contains(&found) {
-                return Err(Kind::Parameter { what, found, expected: "a number from 0.001 to 128" }.into());
+                return Err(ErrorKind::Parameter { what, found, expected: "a number from 0.001 to 128" }.into());
             }
         }
         Ok(())

@@ -2,7 +2,7 @@ use super::run;
 use super::sample::Sample;
 use super::simd_level::SimdLevel;
 use super::view::{Channels, Layout, Pixels, PixelsMut};
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::form::direct::DirectForm;
 use crate::form::plain::PlainLut;
 use crate::form::structured::StructuredLut;
@@ -53,7 +53,7 @@ pub trait PixelMap: sealed::Sealed + Sync {
         to: &mut PixelsMut<'_, T>,
     ) -> Result<(), Error> {
         if from.size() != to.size() {
-            return Err(Kind::PictureSizes { from: from.size(), to: to.size() }.into());
+            return Err(ErrorKind::PictureSizes { from: from.size(), to: to.size() }.into());
         }
         let (from, to) = ((from.samples, from.layout), (&mut *to.samples, to.layout));
         run::map(self.blocks().0, level.level(), from, to);

@@ -1,5 +1,5 @@
 use super::sample::Sample;
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 
 /// The channels of a pixel, in memory order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -73,7 +73,7 @@ impl Layout {
         });
         match needed {
             Some(needed) if needed <= len => Ok(layout),
-            _ => Err(Kind::PixelLayout { width, height, channels: channels.count(), stride, len }.into()),
+            _ => Err(ErrorKind::PixelLayout { width, height, channels: channels.count(), stride, len }.into()),
         }
     }
 

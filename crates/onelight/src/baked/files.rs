@@ -9,7 +9,7 @@ use onelight_lut::{DirectForm, Domain, Interpolation, Lut3d, Storage};
 
 use super::form::{Baked, BakedForm};
 use super::recipe::Form;
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::word::{Word as _, words};
 
 /// The file formats of a baked look.
@@ -102,7 +102,8 @@ impl FileFormat {
     fn cannot_hold(self, form: Form) -> Error {
         let other = if self == Self::Json { Form::Direct } else { Form::Plain };
         let (own, form, usual, other) = (self.word(), form.word(), Self::usual(form).word(), other.word());
-        Kind::Contradiction(format!("{own} cannot hold the {form} form, expected {usual}, or the {other} form")).into()
+        ErrorKind::Contradiction(format!("{own} cannot hold the {form} form, expected {usual}, or the {other} form"))
+            .into()
     }
 }
 
@@ -245,7 +246,7 @@ impl Baked {
     fn coded_table(&self, format: FileFormat) -> Result<&Lut3d, Error> {
         match self.form() {
             BakedForm::Coded { table, .. } => Ok(table),
-            _ => Err(Kind::Contradiction(format!(
+            _ => Err(ErrorKind::Contradiction(format!(
                 "{} holds no shaper for scene-linear light, expected a table that takes a coding, such as sRGB's",
                 format.word()
             ))

@@ -5,7 +5,7 @@ use onelight_lut::{SamplingLaw, Search, Storage};
 use super::form::Baked;
 use super::recipe::{Form, Recipe};
 use crate::certify::Certifier;
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::look::Look;
 use crate::structured::TableCoding;
 use crate::word::WorkingSpace;
@@ -68,6 +68,6 @@ pub fn smallest_under(look: &Look, limit: f64, progress: impl Fn(usize, usize)) 
     };
     best.map(|(_, recipe)| recipe).ok_or_else(|| {
         let what = "largest difference of a structured table".to_owned();
-        Kind::Setting { what, found: limit, expected: expected() }.into()
+        ErrorKind::Setting { what, found: limit, expected: expected() }.into()
     })
 }

@@ -10,7 +10,7 @@ use super::settings::{Nodes, check_limit};
 use super::stages::Stages;
 use super::sum::Sum;
 use super::training::{Sample, Training};
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::reference::Reference;
 
 /// The sums of one stage by their number of terms, with the largest miss of each; made when they are asked for.
@@ -67,7 +67,7 @@ pub(super) fn under(film: &Reference, stages: &Stages, limit: f64) -> Result<Dir
         }
     }
     let expected = format!("a limit that {most} fitted exponentials keep (the nearest had a maximum of {nearest:.4})");
-    Err(Kind::Setting { what: "largest difference of a direct form".to_owned(), found: limit, expected }.into())
+    Err(ErrorKind::Setting { what: "largest difference of a direct form".to_owned(), found: limit, expected }.into())
 }
 
 /// A film with what a certificate needs.

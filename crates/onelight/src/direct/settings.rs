@@ -1,4 +1,4 @@
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 
 /// Where the exponentials of a direct form come from.
 ///
@@ -59,7 +59,7 @@ pub(super) fn check_count(stage: &str, found: usize) -> Result<(), Error> {
         return Ok(());
     }
     let expected = format!("a number from {} to {}", allowed.start(), allowed.end());
-    Err(Kind::Setting { what: format!("exponentials of a direct form's {stage}"), found: found as f64, expected }
+    Err(ErrorKind::Setting { what: format!("exponentials of a direct form's {stage}"), found: found as f64, expected }
         .into())
 }
 
@@ -68,5 +68,5 @@ pub(super) fn check_limit(found: f64) -> Result<(), Error> {
         return Ok(());
     }
     let what = "largest difference of a direct form".to_owned();
-    Err(Kind::Setting { what, found, expected: "a number above 0".to_owned() }.into())
+    Err(ErrorKind::Setting { what, found, expected: "a number above 0".to_owned() }.into())
 }

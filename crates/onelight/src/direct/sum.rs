@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use onelight_lut::{ExponentialSum, ExponentialTerm};
 use onelight_printing::SpectralRow;
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 
 /// A wavelength of a grid that adds less than this part to each sum is left out. 10^-6 would cost 0.008 dE by 1 nm: what is dark
 /// elsewhere is seen through such wavelengths.
@@ -49,7 +49,7 @@ impl Sum {
             let expected =
                 format!("a whole number that divides the {last} nm of the film's grid, such as 1, 2, 5, 10 or 20");
             let what = "step of a direct form's grid in nm".to_owned();
-            return Err(Kind::Setting { what, found: step_nm as f64, expected }.into());
+            return Err(ErrorKind::Setting { what, found: step_nm as f64, expected }.into());
         }
         let nodes = self.0.iter().step_by(step_nm);
         let mut coarse: Vec<Term> = nodes.map(|term| Term { rate: term.rate, weight: Vector3::zeros() }).collect();

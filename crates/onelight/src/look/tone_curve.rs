@@ -1,7 +1,7 @@
 use onelight_film::{CharacteristicCurve, Density, LogExposure, Stock, StockKind};
 use onelight_spectra::{Pchip, TransferCurve};
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 
 /// The tone-curve texture of the first approach: what one channel shows over its exposure, gamma-corrected (sRGB-coded).
 ///
@@ -106,7 +106,8 @@ impl ToneCurve {
         if points.is_empty() {
             return Ok(self.clone());
         }
-        let refuse = |found: String, expected: String| Error::from(Kind::Word { what: "first.curve", found, expected });
+        let refuse =
+            |found: String, expected: String| Error::from(ErrorKind::Word { what: "first.curve", found, expected });
         if points.len() > MAX_POINTS {
             return Err(refuse(format!("{} points", points.len()), format!("at most {MAX_POINTS}")));
         }
@@ -145,7 +146,7 @@ fn reached(
             curve.d_min().0,
             curve.d_max().0
         );
-        Kind::Unreachable(sentence).into()
+        ErrorKind::Unreachable(sentence).into()
     })
 }
 

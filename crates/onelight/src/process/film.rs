@@ -7,7 +7,7 @@ use onelight_spectra::Reconstruction;
 
 use super::spaces::ColourSpaces;
 use super::stock_ref::{DEFAULT_CAMERA, DEFAULT_PRINT, StockRef, default_print};
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 
 /// The simulation of film, second approach of \[Gotanda2010\]: films, lights, and the RGB at both ends.
 ///
@@ -117,7 +117,7 @@ impl FilmProcess {
             check_lights(&print.beam_density, &print.points)?;
         }
         if self.aim == Aim::Sheet && self.neutral_density != NEUTRAL_DENSITY {
-            return Err(Kind::Contradiction(
+            return Err(ErrorKind::Contradiction(
                 "aim sheet takes its density from the sheet: neutral_density changes nothing, expected aim neutral"
                     .to_owned(),
             )
@@ -160,7 +160,7 @@ impl Printing {
     fn check(&self) -> Result<(), Error> {
         let separations = [Wratten::No70, Wratten::No99, Wratten::No98];
         if self.light == PrinterLight::White && !separations.iter().all(|filter| self.filters.contains(*filter)) {
-            return Err(Kind::Contradiction("light white has no separation filters: taking them out changes nothing, expected filters with 70, 99 and 98 or light separations".to_owned()).into());
+            return Err(ErrorKind::Contradiction("light white has no separation filters: taking them out changes nothing, expected filters with 70, 99 and 98 or light separations".to_owned()).into());
         }
         Ok(())
     }

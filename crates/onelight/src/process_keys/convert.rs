@@ -3,7 +3,7 @@
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
 use super::keys::ProcessKeys;
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::films::Films;
 use crate::process::{
     Approach, ColourSpaces, FilmProcess, FirstProcess, OwnSheet, Printing, Process, StockRef, ToneMapping, ToneProcess,
@@ -98,7 +98,7 @@ impl ProcessKeys {
             Some(print) => Ok((camera, Some(stock_ref("print", print, path, sha256)?))),
             None if path.or(sha256).is_some() => {
                 let sentence = "print is none: print_sheet and print_sha256 change nothing, expected them left out";
-                Err(Kind::Contradiction(sentence.to_owned()).into())
+                Err(ErrorKind::Contradiction(sentence.to_owned()).into())
             }
             None => Ok((camera, None)),
         }
@@ -110,7 +110,7 @@ impl ProcessKeys {
             check_exposure(self.neutral_density, self.overexposure)?;
             check_lights(&self.beam_density, &self.points)?;
         }
-        let refuse = |sentence: String| Err(Kind::Contradiction(sentence).into());
+        let refuse = |sentence: String| Err(ErrorKind::Contradiction(sentence).into());
         let (idle, why) = self.idle_keys();
         // The first approach's controls are named before the film's kind is blamed for them.
         if idle.contains(&"first") {
@@ -173,7 +173,7 @@ impl ProcessKeys {
 /// The sentence for films beside a process that has none.
 pub(crate) fn no_films(approach: Approach) -> Error {
     let sentence = format!("approach {} knows no film: films beside it change nothing, expected none", approach.word());
-    Kind::Contradiction(sentence).into()
+    ErrorKind::Contradiction(sentence).into()
 }
 
 fn stock_ref(key: &str, id: &str, path: Option<&str>, sha256: Option<&str>) -> Result<StockRef, Error> {
@@ -181,13 +181,13 @@ fn stock_ref(key: &str, id: &str, path: Option<&str>, sha256: Option<&str>) -> R
         (None, None) => return Ok(id.into()),
         (Some(path), Some(sha256)) => (path.to_owned(), sha256.to_owned()),
         (Some(_), None) => {
-            return Err(Kind::Contradiction(format!(
+            return Err(ErrorKind::Contradiction(format!(
                 "{key}_sheet names a data sheet without its digest, expected {key}_sha256 beside it"
             ))
             .into());
         }
         (None, Some(_)) => {
-            return Err(Kind::Contradiction(format!(
+            return Err(ErrorKind::Contradiction(format!(
                 "{key}_sha256 is the digest of no data sheet, expected {key}_sheet beside it"
             ))
             .into());

@@ -2,7 +2,7 @@
 
 use super::keys::ProcessKeys;
 use super::version::VERSION;
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::message::{cut, nearest, one_line};
 use crate::process::{Process, default_print};
 
@@ -48,7 +48,7 @@ impl ProcessKeys {
     /// If it is no TOML, has an unknown key or word (the message names line and nearest), or another version.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, Error> {
         let at = |line: usize, problem: String| {
-            Error::from(Kind::Look { file: file.to_owned(), line, problem: one_line(&problem) })
+            Error::from(ErrorKind::Look { file: file.to_owned(), line, problem: one_line(&problem) })
         };
         if text.len() > MAX_BYTES {
             return Err(at(1, format!("{} bytes, expected at most {MAX_BYTES}", text.len())));

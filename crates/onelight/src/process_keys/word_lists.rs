@@ -2,7 +2,7 @@
 
 use onelight_printing::Calibration;
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::message::cut;
 
 /// What `print` is for a word: the id of a film, or `None` for `none`.
@@ -11,7 +11,7 @@ pub(super) fn parse_print(word: &str) -> Result<Option<String>, Error> {
         "none" => Ok(None),
         _ if word.eq_ignore_ascii_case("none") => {
             let expected = "the id of a print film, or none (did you mean \"none\"?)".to_owned();
-            Err(Kind::Word { what: "print", found: word.to_owned(), expected }.into())
+            Err(ErrorKind::Word { what: "print", found: word.to_owned(), expected }.into())
         }
         _ => Ok(Some(word.to_owned())),
     }
@@ -23,7 +23,7 @@ pub(super) fn parse_calibration(word: &str) -> Result<Calibration, Error> {
     let found = if word == "exact" { Some(Calibration::Exact) } else { count() };
     found.ok_or_else(|| {
         let expected = "exact, or 0 to 30 iterations".to_owned();
-        Kind::Word { what: "calibration", found: cut(word), expected }.into()
+        ErrorKind::Word { what: "calibration", found: cut(word), expected }.into()
     })
 }
 

@@ -3,7 +3,7 @@ use onelight_film::{AmountCurve, DyeAmount, LogExposure, PerLayer};
 use onelight_lut::{Domain, Lut1d, Mix, SceneSampler};
 use rayon::prelude::*;
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, ErrorKind};
 use crate::reference::Reference;
 
 /// Points of a curve: its error is below 0.002 dE.
@@ -170,5 +170,6 @@ fn affine(pairs: &[(Vector3<f64>, Vector3<f64>)]) -> Result<(Matrix3<f64>, Vecto
 }
 
 fn flat() -> Error {
-    Kind::Contradiction("the print does not respond to the negative, expected three layers that do".to_owned()).into()
+    ErrorKind::Contradiction("the print does not respond to the negative, expected three layers that do".to_owned())
+        .into()
 }
