@@ -36,7 +36,7 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Bake a look into a LUT: look.cube, look.toml and a preview
+    /// Bake a look into the LUTs that programs load, with a certificate and a preview
     Bake(command::bake::Arguments),
     /// Say how far every baked form lies from the exact film
     Certify(command::certify::Arguments),

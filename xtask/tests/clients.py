@@ -3,7 +3,7 @@
 
 The folder holds the files and probes.txt: a first line "# r g b FILE FILE ...", then one line per colour with the
 scene-linear input and our output for each FILE, three numbers each. A FILE may be a .clf, a .cube, or a .spi3d; beside
-the last lies NAME_spi3d.ocio, the configuration with its shaper, through which it is applied.
+the last lies a configuration with its shaper, the only .ocio of the folder, through which it is applied.
 
 OpenColorIO's shaders are compiled and run too, and compared with OpenColorIO on the processor.
 
@@ -35,7 +35,7 @@ def read_probes(path):
 def processor(path):
     """OpenColorIO's processor for one file."""
     if path.suffix == ".spi3d":
-        configuration = path.with_name(f"{path.stem}_spi3d.ocio")
+        [configuration] = path.parent.glob("*.ocio")
         config = ocio.Config.CreateFromFile(str(configuration))
         config.validate()
         scene = config.getColorSpace(ocio.ROLE_SCENE_LINEAR).getName()
@@ -77,9 +77,9 @@ def main():
     failed = False
     # OpenColorIO keeps files it has read by their path: fresh names, so that no older file answers.
     with tempfile.TemporaryDirectory() as fresh:
+        for part in arguments.folder.glob("look.*"):
+            shutil.copy(part, fresh)
         for name, ours in outputs.items():
-            for part in arguments.folder.glob(f"{pathlib.Path(name).stem}*"):
-                shutil.copy(part, fresh)
             used = processor(pathlib.Path(fresh) / name)
             theirs = inputs.copy()
             used.getDefaultCPUProcessor().applyRGB(theirs)

@@ -21,6 +21,7 @@ use onelight_lut::{Certificate, ColourSet, Maps, Samples, SamplingLaw, Search, c
 use onelight_spectra::{Basis, Chromaticity, DisplayDifference, Reconstruction, color_checker};
 use serde::Serialize;
 
+use crate::baked::Coordinate;
 use crate::error::Error;
 use crate::look::Look;
 use crate::scene::{MID_GREY, multiply};
@@ -101,6 +102,7 @@ pub struct Certifier<'a> {
     look: &'a Look,
     difference: DisplayDifference,
     luminance: Vector3<f64>,
+    coding: Option<Coordinate>,
 }
 
 impl<'a> Certifier<'a> {
@@ -109,7 +111,16 @@ impl<'a> Certifier<'a> {
     /// # Errors
     /// None for the built-in spaces.
     pub fn new(look: &'a Look) -> Result<Self, Error> {
-        Ok(Self { look, difference: look.difference()?, luminance: look.spaces().luminance()? })
+        let (difference, luminance) = (look.difference()?, look.spaces().luminance()?);
+        Ok(Self { look, difference, luminance, coding: None })
+    }
+
+    /// The same for a form that takes a coding of light ([`Baked::coordinate`](crate::baked::Baked::coordinate)). Exposures end
+    /// with the coding, and colours outside of it count as what it holds of them: no table can know what its input does not
+    /// say. `None` leaves everything as it is.
+    #[must_use]
+    pub fn within_coding(self, coding: Option<&Coordinate>) -> Self {
+        Self { coding: coding.cloned(), ..self }
     }
 
     /// The colours that `law` draws, in the primaries of `space`, and the ColorChecker, each with the exact look's result.
@@ -118,8 +129,8 @@ impl<'a> Certifier<'a> {
     /// If the law is out of range.
     pub fn samples(&self, law: &SamplingLaw, space: WorkingSpace) -> Result<Samples, Error> {
         let to_input = self.to_input(space)?;
-        let exact = |rgb| self.look.develop_linear(multiply(&to_input, rgb));
-        Ok(Samples::new(law, &[checker(space)?], exact, |_| {})?)
+        let exact = |rgb| self.look.develop_linear(self.held(multiply(&to_input, rgb)));
+        Ok(Samples::new(&self.within(law), &[checker(space)?], exact, |_| {})?)
     }
 
     /// Measures a map (the look's input space to display-coded) on samples in sRGB primaries.
@@ -149,7 +160,7 @@ impl<'a> Certifier<'a> {
         let to_input = self.to_input(space)?;
         let coding = self.look.coding();
         let maps = Maps {
-            reference: |rgb| self.look.develop_linear(multiply(&to_input, rgb)),
+            reference: |rgb| self.look.develop_linear(self.held(multiply(&to_input, rgb))),
             candidate: |rgb: [f64; 3]| {
                 let input = multiply(&to_input, rgb).map(|v| v as f32);
                 map(input).map(|v| coding.decode(f64::from(v)))
@@ -192,6 +203,19 @@ impl<'a> Certifier<'a> {
         let greys = (-80..=80).map(|i| f64::from(i) / 8.0).map(|stops| (chroma(stops), stops));
         let (largest, stops) = greys.fold((0.0, 0.0), |most, grey| if grey.0 > most.0 { grey } else { most });
         Tint { mid_grey: chroma(0.0), largest, stops }
+    }
+
+    /// What the coding holds of a colour.
+    fn held(&self, linear: [f64; 3]) -> [f64; 3] {
+        self.coding.as_ref().map_or(linear, |coding| coding.held(linear))
+    }
+
+    /// The law up to the brightest grey of the coding, by eighths of a stop.
+    fn within(&self, law: &SamplingLaw) -> SamplingLaw {
+        let Some(coding) = &self.coding else { return law.clone() };
+        let end = ((coding.max() / MID_GREY).log2() * 8.0).floor() / 8.0;
+        let [low, high] = law.stops;
+        SamplingLaw { stops: [low, high.min(end).max(low)], ..law.clone() }
     }
 
     fn to_input(&self, space: WorkingSpace) -> Result<Matrix3<f64>, Error> {
@@ -249,10 +273,17 @@ impl fmt::Display for Tint {
 /// A certificate in one line for comments in files.
 #[must_use]
 pub fn summary(certificate: &Certificate) -> String {
-    let MeanAndMax { mean, max } = to_six_stops(certificate);
+    let Certificate { law, overall, max_found, .. } = certificate;
+    let [low, high] = law.stops;
+    let to_six = if high > 6.0 {
+        let MeanAndMax { mean, max } = to_six_stops(certificate);
+        format!("; to +6 stops: mean {mean:.3}, max {max:.3}")
+    } else {
+        String::new()
+    };
     format!(
-        "CIEDE2000 from the exact film, -10 to +10 stops: mean {:.3}, p99 {:.3}, max {:.3}; to +6 stops: mean {mean:.3}, max {max:.3}",
-        certificate.overall.mean, certificate.overall.p99, certificate.max_found
+        "CIEDE2000 from the exact film, {low:+} to {high:+} stops: mean {:.3}, p99 {:.3}, max {max_found:.3}{to_six}",
+        overall.mean, overall.p99
     )
 }
 
@@ -269,8 +300,10 @@ pub fn in_words(certificate: &Certificate, space: &str) -> String {
         let ([low, high], d) = (band.stops, &band.deviation);
         text += &format!("  {low:>+3} to {high:>+3} stops: mean {:.3}, p99 {:.3}, max {:.3}\n", d.mean, d.p99, d.max);
     }
-    let MeanAndMax { mean, max } = to_six_stops(certificate);
-    text += &format!("  all to +6 stops: mean {mean:.3}, max {max:.3}\n");
+    if law.stops[1] > 6.0 {
+        let MeanAndMax { mean, max } = to_six_stops(certificate);
+        text += &format!("  all to +6 stops: mean {mean:.3}, max {max:.3}\n");
+    }
     let axis = &certificate.neutral_axis;
     let folds = &certificate.folds;
     text += &format!(

@@ -17,6 +17,12 @@ use crate::program::program;
 /// Colours that every file is tried on.
 const COLOURS: usize = 10_000;
 
+/// Files that take scene-linear light.
+const SCENE_CUBE: &str = "look.scene-linear.resolve.cube";
+const SCENE_CLF: &str = "look.scene-linear.clf";
+/// It takes what the shaper of the configuration beside it gives.
+const SPI3D: &str = "look.log2-shaper.spi3d";
+
 fn bake(folder: &Path, arguments: &[&str]) {
     let out = folder.to_string_lossy();
     let mut command = program();
@@ -78,23 +84,23 @@ fn opencolorio_gives_what_we_give() {
         bake(folder, &["--camera", camera, "--form", "structured", "--quick"]);
         let film = onelight::Process::for_camera(camera).unwrap().compile().unwrap();
         let structured = film.structured(&onelight::StructuredSettings::default()).unwrap();
-        let clf = ClfProcess::read(open(&folder.join("look.clf"))).unwrap();
+        let clf = ClfProcess::read(open(&folder.join(SCENE_CLF))).unwrap();
         for rgb in colours() {
             let (ours, read) = (structured.apply(rgb), clf.apply(rgb));
             assert!((0..3).all(|c| (ours[c] - read[c]).abs() < 5e-5), "{rgb:?}: {ours:?} and {read:?}");
         }
-        try_in_opencolorio(folder, &[("look.clf", &|rgb| structured.apply(rgb))]);
+        try_in_opencolorio(folder, &[(SCENE_CLF, &|rgb| structured.apply(rgb))]);
 
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path();
         bake(folder, &["--camera", camera, "--stops", "6", "--format", "cube,clf,spi3d", "--quick"]);
-        let cube = CubeFile::read(open(&folder.join("look.cube"))).unwrap();
-        let clf = ClfProcess::read(open(&folder.join("look.clf"))).unwrap();
-        let table = spi3d::read(File::open(folder.join("look.spi3d")).unwrap()).unwrap();
+        let cube = CubeFile::read(open(&folder.join(SCENE_CUBE))).unwrap();
+        let clf = ClfProcess::read(open(&folder.join(SCENE_CLF))).unwrap();
+        let table = spi3d::read(File::open(folder.join(SPI3D)).unwrap()).unwrap();
         assert_eq!(&table, cube.lut3d().unwrap());
         let apply_cube = |rgb| cube.apply(rgb, Interpolation::Tetrahedral);
         let apply_clf = |rgb| clf.apply(rgb);
-        try_in_opencolorio(folder, &[("look.cube", &apply_cube), ("look.clf", &apply_clf), ("look.spi3d", &apply_clf)]);
+        try_in_opencolorio(folder, &[(SCENE_CUBE, &apply_cube), (SCENE_CLF, &apply_clf), (SPI3D, &apply_clf)]);
     }
 }
 
@@ -104,7 +110,7 @@ fn ffmpeg_gives_what_we_give() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     bake(folder, &["--shaper", "srgb", "--size", "33", "--quick"]);
-    let cube = CubeFile::read(open(&folder.join("look.cube"))).unwrap();
+    let cube = CubeFile::read(open(&folder.join("look.srgb.cube"))).unwrap();
     let shaper = Shaper::log2(0.02, 11.52).unwrap();
     let colours = colours();
     let code = |v: f32| (shaper.encode(f64::from(v)) * 65535.0).round() as u16;
@@ -117,7 +123,7 @@ fn ffmpeg_gives_what_we_give() {
         "-i",
         "in.png",
         "-vf",
-        "format=gbrp16le,lut3d=look.cube:interp=tetrahedral",
+        "format=gbrp16le,lut3d=look.srgb.cube:interp=tetrahedral",
         "-pix_fmt",
         "rgb48be",
         "out.png",
@@ -146,14 +152,18 @@ fn every_format_is_written_where_it_fits() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     for (arguments, files) in [
-        (&["--shaper", "srgb", "--format", "hald", "--size", "16"][..], &["look_hald.png"][..]),
+        (&["--shaper", "srgb", "--format", "hald", "--size", "16"][..], &["look.srgb.hald.png"][..]),
         (
-            &["--shaper", "srgb", "--format", "strip", "--size", "16"],
-            &["look_strip_unreal.png", "look_strip_unity.png"],
+            &["--shaper", "srgb", "--format", "unreal,unity,godot", "--size", "16"],
+            &["look.srgb.unreal.png", "look.srgb.unity.png", "look.srgb.godot.png"],
         ),
-        (&["--shaper", "bevy", "--format", "ktx2", "--size", "16"], &["look.ktx2"]),
-        (&["--shaper", "logc4", "--format", "cube,clf,spi3d", "--size", "9"], &["look.cube", "look.clf", "look.spi3d"]),
-        (&["--form", "structured", "--size", "9", "--storage", "unorm10", "--coding", "display"], &["look.clf"]),
+        (&["--shaper", "bevy", "--format", "ktx2", "--size", "16"], &["look.bevy.ktx2"]),
+        (&["--format", "ktx2", "--size", "16"], &["look.log2-shaper.ktx2"]),
+        (
+            &["--shaper", "logc4", "--format", "cube,clf,spi3d", "--size", "9"],
+            &["look.logc4.cube", "look.logc4.clf", "look.logc4.spi3d"],
+        ),
+        (&["--form", "structured", "--size", "9", "--storage", "unorm10", "--coding", "display"], &[SCENE_CLF]),
     ] {
         bake(folder, arguments);
         for file in files.iter().chain(&["look.json", "look.toml", "preview.png"]) {

@@ -1,34 +1,10 @@
 //! The runner as a user meets it: every mistake ends with one sentence, exit status 2 and no file.
 
 use std::path::Path;
-use std::process::{Output, Stdio};
+use std::process::Stdio;
 use std::{fs, str};
 
-use crate::program::{names as files, program, with_scene};
-
-fn xtask(folder: &Path, arguments: &[&str]) -> Output {
-    program().args(arguments).current_dir(folder).output().unwrap()
-}
-
-fn done(folder: &Path, arguments: &[&str]) -> String {
-    let output = xtask(folder, arguments);
-    assert!(output.status.success(), "{arguments:?}: {}", str::from_utf8(&output.stderr).unwrap());
-    String::from_utf8(output.stdout).unwrap()
-}
-
-/// Runs a mistake; returns the sentence.
-fn refused(folder: &Path, arguments: &[&str]) -> String {
-    let before = files(folder);
-    let output = xtask(folder, arguments);
-    let sentence = str::from_utf8(&output.stderr).unwrap().to_owned();
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {sentence}");
-    assert!(sentence.starts_with("error: ") && !sentence.contains("panicked"), "{sentence}");
-    let clauses: Vec<&str> = sentence.trim_end().split(": ").collect();
-    let once = (1..clauses.len()).all(|i| !clauses[..i].contains(&clauses[i]));
-    assert!(once, "says something twice: {sentence}");
-    assert_eq!(files(folder), before, "{arguments:?} left something behind");
-    sentence
-}
+use crate::program::{SCENE_CUBE, done, names as files, program, refused, with_scene};
 
 #[test]
 fn pictures_that_cannot_be_developed_are_named() {
@@ -72,27 +48,6 @@ fn looks_that_contradict_themselves_are_named() {
     assert!(refused(folder, &["stocks", "velvia"]).contains("fuji-velvia-50"));
     let far = refused(folder, &["stocks", &"?".repeat(9999)]);
     assert!(far.contains("`cargo xtask stocks` lists all") && !far.contains("nearest") && far.len() < 200, "{far}");
-}
-
-#[test]
-fn a_look_is_baked_saved_and_baked_again() {
-    let folder = tempfile::tempdir().unwrap();
-    let folder = folder.path();
-    let first = done(
-        folder,
-        &["bake", "--camera", "kodak-portra-400", "--aim", "sheet", "--size", "9", "--out", "a", "--json"],
-    );
-    let json: serde_json::Value = serde_json::from_str(&first).unwrap();
-    assert_eq!(json["process"]["camera"], "kodak-portra-400");
-    assert!(json["certificate"]["max_found"].as_f64().unwrap() > 0.0);
-    assert_eq!(files(&folder.join("a")), ["look.cube", "look.json", "look.toml", "preview.png"]);
-    done(folder, &["bake", "--look", "a/look.toml", "--size", "9", "--out", "b"]);
-    for name in ["look.cube", "look.json", "look.toml", "preview.png"] {
-        assert!(
-            fs::read(folder.join("a").join(name)).unwrap() == fs::read(folder.join("b").join(name)).unwrap(),
-            "{name}"
-        );
-    }
 }
 
 /// The scene, as `fixtures` writes it: something to develop.
@@ -171,7 +126,9 @@ fn every_approach_is_baked_and_developed() {
     let look = fs::read_to_string(folder.join("a/look.toml")).unwrap();
     assert!(look.contains("approach = \"first\"") && look.contains("saturation = 0.9"), "{look}");
     done(folder, &["bake", "--look", "a/look.toml", "--size", "9", "--out", "b"]);
-    assert!(fs::read(folder.join("a/look.cube")).unwrap() == fs::read(folder.join("b/look.cube")).unwrap());
+    assert!(
+        fs::read(folder.join("a").join(SCENE_CUBE)).unwrap() == fs::read(folder.join("b").join(SCENE_CUBE)).unwrap()
+    );
     let sentence = refused(folder, &["bake", "--approach", "clip", "--form", "structured"]);
     assert!(sentence.contains("expected approach second"), "{sentence}");
 }
@@ -239,66 +196,6 @@ fn hard_inputs_break_no_limit() {
     let page = fs::read_to_string(folder.join("a/stability.md")).unwrap();
     assert_eq!(page.matches("\n| fuji-velvia-50, neutral aim | ").count(), json["rows"].as_array().unwrap().len());
     assert!(refused(folder, &["stability", "--all", "--camera", "kodak-5207"]).contains("--all"));
-}
-
-#[test]
-fn a_table_is_chosen_and_measured_on_the_users_scene() {
-    let folder = with_scene();
-    let folder = folder.path();
-    let chosen = done(folder, &["bake", "--max-de", "1.5", "--scene", "scene.exr", "--out", "a", "--json"]);
-    let json: serde_json::Value = serde_json::from_str(&chosen).unwrap();
-    assert!(json["certificate"]["max_found"].as_f64().unwrap() <= 1.5);
-    assert!(json["scene"]["mean"].as_f64().unwrap() < 0.5);
-    assert_eq!(json["failures"].as_array().unwrap().len(), 0);
-    let saved: serde_json::Value = serde_json::from_slice(&fs::read(folder.join("a/look.json")).unwrap()).unwrap();
-    assert_eq!(saved["certificate"], json["certificate"]);
-    let fitted = done(folder, &["bake", "--scene", "scene.exr", "--size", "17", "--out", "b"]);
-    assert!(fitted.contains("on the scene given"), "{fitted}");
-    assert!(refused(folder, &["bake", "--scene", "missing.exr"]).contains("missing.exr"));
-    assert!(refused(folder, &["bake", "--form", "structured", "--format", "cube"]).contains("clf"));
-    assert!(refused(folder, &["bake", "--format", "hald"]).contains("--shaper srgb"));
-    assert!(refused(folder, &["bake", "--shaper", "srgb", "--format", "hald", "--size", "20"]).contains("20"));
-}
-
-#[test]
-fn the_direct_form_is_baked_chosen_and_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let folder = folder.path();
-    let json = |text: &str| -> serde_json::Value { serde_json::from_str(text).unwrap() };
-    let baked = json(&done(folder, &["bake", "--form", "direct", "--nodes", "7,3", "--out", "a", "--json"]));
-    assert_eq!(files(&folder.join("a")), ["look.direct.json", "look.json", "look.toml", "preview.png"]);
-    assert!(baked["certificate"]["max_found"].as_f64().unwrap() < 0.4, "{}", baked["certificate"]["max_found"]);
-    let file = json(&fs::read_to_string(folder.join("a/look.direct.json")).unwrap());
-    assert_eq!(file["projection"].as_array().unwrap().len(), 7);
-    assert_eq!(file["print"]["exposure"].as_array().unwrap().len(), 3);
-    assert!(file["comments"].as_array().unwrap().iter().any(|line| line.as_str().unwrap().contains("CIEDE2000")));
-    let chosen = ["bake", "--form", "direct", "--camera", "fuji-velvia-50", "--max-de", "0.5", "--out", "b", "--json"];
-    let chosen = json(&done(folder, &chosen));
-    assert!(chosen["certificate"]["max_found"].as_f64().unwrap() <= 0.5);
-    let direct = |more: &[&str]| refused(folder, &[&["bake", "--form", "direct"], more].concat());
-    assert!(direct(&["--format", "clf"]).contains("expected json"));
-    assert!(direct(&["--nodes", "six"]).contains("8,4"));
-    assert!(direct(&["--nodes", "40"]).contains("from 2 to 16"));
-    assert!(direct(&["--camera", "fuji-velvia-50", "--max-de", "1e-6"]).contains("the nearest had"));
-    assert!(refused(folder, &["bake", "--format", "json"]).contains("--form direct"));
-    assert!(refused(folder, &["bake", "--nodes", "6"]).contains("--form direct"));
-}
-
-#[test]
-fn a_quick_bake_is_the_same_table_and_says_what_it_lacks() {
-    let folder = tempfile::tempdir().unwrap();
-    let folder = folder.path();
-    let said = done(folder, &["bake", "--quick", "--size", "9", "--out", "quick"]);
-    assert!(said.contains("not certified"), "{said}");
-    assert_eq!(files(&folder.join("quick")), ["look.cube", "look.toml"]);
-    done(folder, &["bake", "--size", "9", "--out", "slow"]);
-    let table = |folder_name: &str| -> Vec<String> {
-        let text = fs::read_to_string(folder.join(folder_name).join("look.cube")).unwrap();
-        assert_eq!(text.contains("not certified"), folder_name == "quick");
-        text.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect()
-    };
-    assert_eq!(table("quick"), table("slow"));
-    assert!(refused(folder, &["bake", "--quick", "--max-de", "1"]).contains("--max-de"));
 }
 
 #[test]
@@ -385,7 +282,7 @@ fn a_data_sheet_of_ones_own_is_a_film_like_any_other() {
     assert!(said.contains("mine_my-print"), "{said}");
     // The same film under another name.
     let table = |name: &str| {
-        let text = fs::read_to_string(folder.join(name).join("look.cube")).unwrap();
+        let text = fs::read_to_string(folder.join(name).join(SCENE_CUBE)).unwrap();
         text.lines().filter(|line| !line.starts_with(['#', 'T'])).map(str::to_owned).collect::<Vec<_>>()
     };
     assert_eq!(table("looks/own"), table("built-in"));
@@ -398,7 +295,7 @@ fn a_data_sheet_of_ones_own_is_a_film_like_any_other() {
     assert_eq!(table("looks/again"), table("looks/own"));
     // Every form.
     for form in ["structured", "direct"] {
-        done(folder, &quickly(&["--camera", "mine", "--form", form, "--out", form]));
+        done(folder, &["bake", "--quick", "--camera", "mine", "--form", form, "--out", form]);
     }
     // A changed sheet is refused, and taken where it is asked for.
     let sheet = folder.join("mine/stock.toml");

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
 
+mod bake;
 mod big_pictures;
 mod clients;
 mod command_line;

@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::look::Look;
 use crate::process::ColourSpaces;
 use crate::scene::{MID_GREY, multiply};
+use crate::word::Word as _;
 
 /// A coding of light that a table takes as its coordinates.
 ///
@@ -22,7 +23,9 @@ use crate::scene::{MID_GREY, multiply};
 /// ```
 #[derive(Debug, Clone)]
 pub struct Coordinate {
+    word: &'static str,
     name: &'static str,
+    primaries: &'static str,
     curve: CodingCurve,
     /// From the look's input primaries to those of the coding, and back.
     there: Matrix3<f64>,
@@ -40,24 +43,41 @@ enum CodingCurve {
 const BEVY_STOPS: (f64, f64) = (-11.0, 12.0);
 
 impl Coordinate {
-    /// A published coding, with its own primaries.
-    pub(super) fn of_curve(curve: SceneCurve, spaces: &ColourSpaces) -> Result<Self, Error> {
-        Self::new(curve.name(), CodingCurve::Scene(curve), &curve.space(), spaces)
+    /// A published coding with its own primaries; `word` is what a recipe calls it, `primaries` what people do.
+    pub(super) fn of_curve(
+        word: &'static str,
+        curve: SceneCurve,
+        primaries: &'static str,
+        spaces: &ColourSpaces,
+    ) -> Result<Self, Error> {
+        Self::new([word, curve.name(), primaries], CodingCurve::Scene(curve), &curve.space(), spaces)
     }
 
     /// The coordinate of Bevy's tone-mapping tables, in the look's input primaries.
     pub(super) fn bevy(spaces: &ColourSpaces) -> Result<Self, Error> {
         Self::new(
-            "log2(x / 0.18) from -11 to +12",
+            ["bevy", "log2(x / 0.18) from -11 to +12", spaces.input_space.word()],
             CodingCurve::Stops(BEVY_STOPS.0, BEVY_STOPS.1),
             &spaces.input_space.space(),
             spaces,
         )
     }
 
-    fn new(name: &'static str, curve: CodingCurve, space: &RgbSpace, spaces: &ColourSpaces) -> Result<Self, Error> {
+    fn new(
+        [word, name, primaries]: [&'static str; 3],
+        curve: CodingCurve,
+        space: &RgbSpace,
+        spaces: &ColourSpaces,
+    ) -> Result<Self, Error> {
         let (input, white) = (spaces.input_space.space(), Chromaticity::black_body_6500_k());
-        Ok(Self { name, curve, there: input.to_about(space, white)?, back: space.to_about(&input, white)? })
+        Ok(Self {
+            word,
+            name,
+            primaries,
+            curve,
+            there: input.to_about(space, white)?,
+            back: space.to_about(&input, white)?,
+        })
     }
 
     /// Scene-linear RGB of the look's input space at coordinates.
@@ -67,6 +87,18 @@ impl Coordinate {
             CodingCurve::Stops(low, high) => MID_GREY * (low + v * (high - low)).exp2(),
         });
         multiply(&self.back, linear)
+    }
+
+    /// What a recipe calls the coding, such as `acescct`: the middle of file names.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        self.word
+    }
+
+    /// The primaries that belong to the coding, for people, such as `AP1`.
+    #[must_use]
+    pub fn primaries(&self) -> &'static str {
+        self.primaries
     }
 
     /// The coding's name for people, such as `ACEScct`.
@@ -89,6 +121,23 @@ impl Coordinate {
         look.bake(size, |t| self.decode(t))
     }
 
+    /// What the coding holds of scene-linear RGB of the look's input space: the colour itself, or the nearest coordinates from
+    /// 0 to 1, decoded.
+    #[must_use]
+    pub fn held(&self, linear: [f64; 3]) -> [f64; 3] {
+        let coordinates = self.encode(linear);
+        if coordinates.iter().all(|v| (0.0..=1.0).contains(v)) {
+            return linear;
+        }
+        self.decode(coordinates.map(|v| v.clamp(0.0, 1.0)))
+    }
+
+    /// The code of an 18 % grey.
+    #[must_use]
+    pub fn grey(&self) -> f64 {
+        self.encode([MID_GREY; 3])[0]
+    }
+
     /// The brightest grey that the coding holds.
     #[must_use]
     pub fn max(&self) -> f64 {
@@ -104,7 +153,7 @@ mod tests {
     fn codings_go_there_and_back() {
         let spaces = ColourSpaces { input_space: crate::WorkingSpace::AcesCg, ..Default::default() };
         let mut all: Vec<Coordinate> =
-            SceneCurve::ALL.iter().map(|curve| Coordinate::of_curve(*curve, &spaces).unwrap()).collect();
+            SceneCurve::ALL.iter().map(|curve| Coordinate::of_curve("", *curve, "", &spaces).unwrap()).collect();
         all.push(Coordinate::bevy(&spaces).unwrap());
         for coordinate in all {
             for rgb in [[0.18; 3], [0.5, 0.2, 0.1], [0.02, 0.05, 0.04]] {
@@ -112,6 +161,12 @@ mod tests {
                 for c in 0..3 {
                     assert!((back[c] - rgb[c]).abs() < 1e-9, "{}: {back:?} for {rgb:?}", coordinate.name);
                 }
+                assert_eq!(coordinate.held(rgb), rgb, "{}", coordinate.name);
+            }
+            for beyond in [[1e5; 3], [-0.5, 1e6, 0.2]] {
+                let held = coordinate.held(beyond);
+                let codes = coordinate.encode(held);
+                assert!(codes.iter().all(|v| (-1e-9..=1.0 + 1e-9).contains(v)), "{}: {codes:?}", coordinate.name);
             }
         }
     }

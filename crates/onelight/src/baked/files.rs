@@ -29,8 +29,12 @@ pub enum FileFormat {
     Spi3d,
     /// A 3D texture of 16-bit floats.
     Ktx2,
-    /// Pictures of the table in a row: one with green downwards for Unreal, one with green upwards for Unity.
-    Strip,
+    /// A picture of the table in a row of tiles, green downwards, for Unreal.
+    Unreal,
+    /// The same, green upwards, for Unity.
+    Unity,
+    /// The same, green downwards, for Godot.
+    Godot,
     /// A Hald CLUT of 16 bits.
     Hald,
     /// The numbers and equations of the direct form.
@@ -39,20 +43,22 @@ pub enum FileFormat {
 
 words! {
     FileFormat, "format":
-        FileFormat::Cube = "cube" "look.cube: Resolve's 1D + 3D form for scene light, 3D alone for coded colour",
-        FileFormat::Clf = "clf" "look.clf: the Common LUT Format, plain or structured",
-        FileFormat::Spi3d = "spi3d" "look.spi3d, with look_spi3d.ocio beside it for scene light",
-        FileFormat::Ktx2 = "ktx2" "look.ktx2: a 3D texture of 16-bit floats",
-        FileFormat::Strip = "strip" "look_strip_unreal.png (green downwards) and look_strip_unity.png (upwards): 1024x32, or 256x16 with --size 16",
-        FileFormat::Hald = "hald" "look_hald.png: a Hald CLUT, 16 bit",
+        FileFormat::Cube = "cube" "look.scene-linear.resolve.cube, Resolve's 1D + 3D form, or of a coding look.CODING.cube, 3D alone",
+        FileFormat::Clf = "clf" "look.INPUT.clf: the Common LUT Format, plain or structured",
+        FileFormat::Spi3d = "spi3d" "look.INPUT.spi3d, with an OpenColorIO configuration beside it for scene light",
+        FileFormat::Ktx2 = "ktx2" "look.INPUT.ktx2: a 3D texture of 16-bit floats",
+        FileFormat::Unreal = "unreal" "look.CODING.unreal.png: tiles in a row, green downwards; 256x16 with --size 16",
+        FileFormat::Unity = "unity" "look.CODING.unity.png: tiles in a row, green upwards; 1024x32 with --size 32",
+        FileFormat::Godot = "godot" "look.CODING.godot.png: tiles in a row, green downwards; 4096x64 with --size 64",
+        FileFormat::Hald = "hald" "look.CODING.hald.png: a Hald CLUT, 16 bit",
         FileFormat::Json = "json" "look.direct.json: the numbers and equations of the direct form";
 }
 
 /// One file of a baked look.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BakedFile {
-    /// The name under which the others of its format know it: `look.spi3d`.
-    pub name: &'static str,
+    /// Its name, which says what it takes: `look.logc4.cube`.
+    pub name: String,
     /// The whole content of the file.
     pub bytes: Vec<u8>,
 }
@@ -89,14 +95,36 @@ impl FileFormat {
         match self {
             Self::Clf => form != Form::Direct,
             Self::Json => form == Form::Direct,
-            Self::Cube | Self::Spi3d | Self::Ktx2 | Self::Strip | Self::Hald => form == Form::Plain,
+            Self::Cube | Self::Spi3d | Self::Ktx2 | Self::Unreal | Self::Unity | Self::Godot | Self::Hald => {
+                form == Form::Plain
+            }
         }
     }
 
     /// Whether its files hold no shaper, so that they take a coding of light only.
     #[must_use]
     pub fn needs_coding(self) -> bool {
-        matches!(self, Self::Strip | Self::Hald)
+        self.strip_green().is_some() || self == Self::Hald
+    }
+
+    /// Nodes along each side that its programs expect, where they expect a number.
+    #[must_use]
+    pub fn usual_size(self) -> Option<usize> {
+        match self {
+            Self::Unreal => Some(16),
+            Self::Unity => Some(32),
+            Self::Godot | Self::Hald => Some(64),
+            Self::Cube | Self::Clf | Self::Spi3d | Self::Ktx2 | Self::Json => None,
+        }
+    }
+
+    /// Which way green runs in the tiles of a strip.
+    fn strip_green(self) -> Option<StripGreen> {
+        match self {
+            Self::Unreal | Self::Godot => Some(StripGreen::Down),
+            Self::Unity => Some(StripGreen::Up),
+            Self::Cube | Self::Clf | Self::Spi3d | Self::Ktx2 | Self::Hald | Self::Json => None,
+        }
     }
 
     fn cannot_hold(self, form: Form) -> Error {
@@ -132,7 +160,8 @@ impl Baked {
     /// use onelight::baked::{FileFormat, Recipe};
     /// let baked = onelight::Process::default().look()?.baked(&Recipe::cube(9))?;
     /// let files = baked.files(FileFormat::Spi3d, &baked.comments(None))?;
-    /// assert_eq!(files.iter().map(|file| file.name).collect::<Vec<_>>(), ["look.spi3d", "look_spi3d.ocio"]);
+    /// assert_eq!(files[0].name, "look.log2-shaper.spi3d");
+    /// assert_eq!(files[1].name, "look.scene-linear.ocio");
     /// # Ok::<(), onelight::Error>(())
     /// ```
     ///
@@ -140,34 +169,37 @@ impl Baked {
     /// If the format cannot hold the form, or needs a table that takes coded light.
     pub fn files(&self, format: FileFormat, comments: &[String]) -> Result<Vec<BakedFile>, Error> {
         let mut bytes = Vec::new();
-        let name = match format {
+        let kind = match format {
             FileFormat::Cube => {
                 self.cube(comments)?.write(&mut bytes)?;
-                "look.cube"
+                if self.coordinate().is_some() { "cube" } else { "resolve.cube" }
             }
             FileFormat::Clf => {
-                let clf = match self.form() {
-                    BakedForm::Plain(lut) => ClfProcess::from_plain(lut)?,
-                    BakedForm::Coded { table, .. } => ClfProcess::from_table(table, Interpolation::Tetrahedral),
-                    BakedForm::Structured(lut) => ClfProcess::from_structured(lut)?,
-                    BakedForm::Direct(_) => return Err(format.cannot_hold(Form::Direct)),
-                };
-                clf.with_name(self.name()).with_descriptions(comments).write(&mut bytes)?;
-                "look.clf"
+                self.clf(comments)?.write(&mut bytes)?;
+                "clf"
             }
             FileFormat::Spi3d => return self.spi3d(comments),
             FileFormat::Ktx2 => {
                 ktx2::write(&mut bytes, self.plain_table(format)?, comments)?;
-                "look.ktx2"
+                return Ok(vec![BakedFile { name: format!("look.{}.ktx2", self.table_word()), bytes }]);
             }
-            FileFormat::Strip => return self.strips(comments),
+            FileFormat::Unreal | FileFormat::Unity | FileFormat::Godot => {
+                let green = format.strip_green().unwrap_or(StripGreen::Down);
+                strip::write(&mut bytes, self.coded_table(format)?, PngDepth::Sixteen, green, comments)?;
+                return Ok(vec![BakedFile { name: self.file_name(&format!("{}.png", format.word())), bytes }]);
+            }
             FileFormat::Hald => {
                 hald::write(&mut bytes, self.coded_table(format)?, PngDepth::Sixteen, comments)?;
-                "look_hald.png"
+                "hald.png"
             }
-            FileFormat::Json => return self.direct_json(comments),
+            FileFormat::Json => {
+                let BakedForm::Direct(direct) = self.form() else { return Err(format.cannot_hold(self.form().kind())) };
+                direct_json::write(&mut bytes, direct, comments)?;
+                // The file itself says what goes in, and nothing else has its name.
+                return Ok(vec![BakedFile { name: "look.direct.json".to_owned(), bytes }]);
+            }
         };
-        Ok(vec![BakedFile { name, bytes }])
+        Ok(vec![BakedFile { name: self.file_name(kind), bytes }])
     }
 
     /// What the files of a format make of scene-linear RGB, their numbers read back.
@@ -184,7 +216,9 @@ impl Baked {
             FileFormat::Spi3d => table(spi3d::read(bytes)?),
             // 16-bit floats are all that the format changes.
             FileFormat::Ktx2 => table(Storage::F16.stored(self.plain_table(format)?)?),
-            FileFormat::Strip => table(strip::read(bytes, StripGreen::Down)?),
+            FileFormat::Unreal | FileFormat::Unity | FileFormat::Godot => {
+                table(strip::read(bytes, format.strip_green().unwrap_or(StripGreen::Down))?)
+            }
             FileFormat::Hald => table(hald::read(bytes)?),
             FileFormat::Json => Read::Direct(Box::new(direct_json::read(bytes)?)),
         };
@@ -196,42 +230,41 @@ impl Baked {
             BakedForm::Plain(lut) => CubeFile::from_plain(lut, CubeFile::SHAPER_POINTS)?,
             _ => CubeFile::from_3d(Domain::UNIT, self.plain_table(FileFormat::Cube)?.clone()),
         };
-        Ok(cube.with_title(self.name()).with_comments(comments))
+        Ok(cube.with_title(&self.title()).with_comments(comments))
+    }
+
+    fn clf(&self, comments: &[String]) -> Result<ClfProcess, Error> {
+        let clf = match self.form() {
+            BakedForm::Plain(lut) => ClfProcess::from_plain(lut)?,
+            BakedForm::Coded { table, .. } => ClfProcess::from_table(table, Interpolation::Tetrahedral),
+            BakedForm::Structured(lut) => ClfProcess::from_structured(lut)?,
+            BakedForm::Direct(_) => return Err(FileFormat::Clf.cannot_hold(Form::Direct)),
+        };
+        let clf = clf.with_name(&self.title()).with_descriptions(comments);
+        Ok(clf.with_descriptors(&self.input_in_words(), &self.output_in_words()))
+    }
+
+    /// The name of a file that takes what the look takes.
+    fn file_name(&self, kind: &str) -> String {
+        format!("look.{}.{kind}", self.input_word())
+    }
+
+    /// What a table takes that lies in a file without its shaper.
+    fn table_word(&self) -> String {
+        self.coordinate().map_or_else(|| "log2-shaper".to_owned(), |taken| taken.word().to_owned())
     }
 
     fn spi3d(&self, comments: &[String]) -> Result<Vec<BakedFile>, Error> {
         let mut bytes = Vec::new();
         spi3d::write(&mut bytes, self.plain_table(FileFormat::Spi3d)?)?;
-        let mut files = vec![BakedFile { name: "look.spi3d", bytes }];
+        let name = format!("look.{}.spi3d", self.table_word());
+        let mut files = vec![BakedFile { name: name.clone(), bytes }];
         if let BakedForm::Plain(lut) = self.form() {
             let mut bytes = Vec::new();
-            let config = Spi3dConfig::new(lut, "look.spi3d").with_look(self.name()).with_comments(comments);
-            config.write(&mut bytes)?;
-            files.push(BakedFile { name: "look_spi3d.ocio", bytes });
+            Spi3dConfig::new(lut, &name).with_look(self.name()).with_comments(comments).write(&mut bytes)?;
+            files.push(BakedFile { name: self.file_name("ocio"), bytes });
         }
         Ok(files)
-    }
-
-    fn strips(&self, comments: &[String]) -> Result<Vec<BakedFile>, Error> {
-        let table = self.coded_table(FileFormat::Strip)?;
-        let of = |(name, green)| {
-            let mut bytes = Vec::new();
-            strip::write(&mut bytes, table, PngDepth::Sixteen, green, comments)?;
-            Ok(BakedFile { name, bytes })
-        };
-        [("look_strip_unreal.png", StripGreen::Down), ("look_strip_unity.png", StripGreen::Up)]
-            .map(of)
-            .into_iter()
-            .collect()
-    }
-
-    fn direct_json(&self, comments: &[String]) -> Result<Vec<BakedFile>, Error> {
-        let BakedForm::Direct(direct) = self.form() else {
-            return Err(FileFormat::Json.cannot_hold(self.form().kind()));
-        };
-        let mut bytes = Vec::new();
-        direct_json::write(&mut bytes, direct, comments)?;
-        Ok(vec![BakedFile { name: "look.direct.json", bytes }])
     }
 
     /// The table of a plain form.

@@ -5,7 +5,7 @@ use onelight_lut::{
 use rayon::prelude::*;
 
 use super::coordinate::Coordinate;
-use super::recipe::{Form, Recipe, ShaperChoice};
+use super::recipe::{EntryRange, Form, Recipe, ShaperChoice};
 use super::shaper_fit::{Fitted, fitted_to};
 use crate::about::About;
 use crate::certify::{Certified, Certifier, CertifySettings, Gamut};
@@ -15,7 +15,6 @@ use crate::look::Look;
 use crate::process::ColourSpaces;
 use crate::scene::{MID_GREY, finite};
 use crate::structured::{Entries, StructuredSettings};
-use crate::word::Word as _;
 
 /// A look in a form that is fast to apply, made by [`Look::baked`]. Entries are those that were stored: what is measured is
 /// what is written.
@@ -32,9 +31,9 @@ use crate::word::Word as _;
 #[derive(Debug, Clone)]
 pub struct Baked {
     form: BakedForm,
-    about: About,
+    pub(super) about: About,
     /// What a certificate said of these numbers, for comments in files.
-    measured: Option<String>,
+    pub(super) measured: Option<String>,
 }
 
 /// The numbers of a [`Baked`] look, by its form.
@@ -91,7 +90,7 @@ impl Look {
     /// # Errors
     /// If the settings are out of range.
     pub fn certify(&self, baked: &Baked, settings: &CertifySettings) -> Result<Certified, Error> {
-        Certifier::new(self)?.report(|rgb| baked.apply(rgb), baked.gamut(), settings)
+        Certifier::new(self)?.within_coding(baked.coordinate()).report(|rgb| baked.apply(rgb), baked.gamut(), settings)
     }
 
     /// Bakes the look with the range of a plain table fitted to somebody's own colours, scene-linear RGB of the input space.
@@ -108,7 +107,12 @@ impl Baked {
         let form = match recipe.form {
             Form::Plain => match recipe.shaper.coordinate(look.spaces())? {
                 Some(coordinate) => {
-                    let table = recipe.storage.stored(&coordinate.bake(look, recipe.size)?)?;
+                    let table = coordinate.bake(look, recipe.size)?;
+                    let table = match recipe.range {
+                        EntryRange::Unit => unit(&table)?,
+                        EntryRange::Any => table,
+                    };
+                    let table = recipe.storage.stored(&table)?;
                     BakedForm::Coded { table, coordinate: Box::new(coordinate) }
                 }
                 None => BakedForm::Plain(plain(look, recipe, scene)?),
@@ -219,6 +223,15 @@ impl Baked {
         }
     }
 
+    /// The coding that the form takes; `None` for scene-linear light.
+    #[must_use]
+    pub fn coordinate(&self) -> Option<&Coordinate> {
+        match &self.form {
+            BakedForm::Coded { coordinate, .. } => Some(coordinate),
+            BakedForm::Plain(_) | BakedForm::Structured(_) | BakedForm::Direct(_) => None,
+        }
+    }
+
     /// The brightest scene value that the form tells from brighter ones; `None` where there is no end.
     #[must_use]
     pub fn max(&self) -> Option<f64> {
@@ -279,24 +292,6 @@ impl Baked {
             }
         }
     }
-
-    /// Lines for files that hold comments: the look, what goes in and out, and `measured`, such as
-    /// [`Certified::summary`]; `None` for that of [`Baked::with_report`].
-    #[must_use]
-    pub fn comments(&self, measured: Option<&str>) -> Vec<String> {
-        let ColourSpaces { input_space, output_space, output_coding } = self.about.spaces;
-        let (version, name, aim) = (env!("CARGO_PKG_VERSION"), &self.about.name, self.about.aim.word());
-        vec![
-            format!("onelight {version}: {name}, {aim} aim, {}", self.describe()),
-            format!(
-                "input: scene-linear {}, 18 % grey at 0.18; output: display {}, {} coding",
-                input_space.word(),
-                output_space.word(),
-                output_coding.word()
-            ),
-            measured.or(self.measured.as_deref()).unwrap_or("not certified").to_owned(),
-        ]
-    }
 }
 
 impl BakedForm {
@@ -324,6 +319,11 @@ fn plain(look: &Look, recipe: &Recipe, scene: Option<&[[f64; 3]]>) -> Result<Pla
     };
     let table = recipe.storage.stored(&table)?;
     Ok(PlainLut::new(shaper, table, Interpolation::Tetrahedral))
+}
+
+/// The same table with its entries cut to 0 to 1.
+fn unit(table: &Lut3d) -> Result<Lut3d, Error> {
+    Ok(Lut3d::new(table.size(), table.entries().map(|entry| entry.map(|v| v.clamp(0.0, 1.0))).collect())?)
 }
 
 /// A plain table moved towards the look between its nodes, over the range of its shaper.

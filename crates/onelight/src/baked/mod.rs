@@ -13,13 +13,18 @@ mod coordinate;
 #[cfg(feature = "formats")]
 mod files;
 mod form;
+mod labels;
 mod recipe;
 mod shaper_fit;
 mod smallest;
+#[cfg(feature = "formats")]
+mod target;
 
 pub use coordinate::Coordinate;
 #[cfg(feature = "formats")]
 pub use files::{AsWritten, BakedFile, FileFormat};
 pub use form::{Baked, BakedForm};
-pub use recipe::{Form, Recipe, ShaperChoice};
+pub use recipe::{EntryRange, Form, Recipe, ShaperChoice};
 pub use smallest::smallest_under;
+#[cfg(feature = "formats")]
+pub use target::{Target, TargetTable};

@@ -6,7 +6,7 @@ use crate::direct::{DirectSettings, Nodes};
 use crate::error::Error;
 use crate::process::ColourSpaces;
 use crate::structured::{Entries, TableCoding};
-use crate::word::words;
+use crate::word::{Word as _, words};
 
 /// The forms that a look can be baked to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -45,6 +45,19 @@ pub enum ShaperChoice {
     Bevy,
 }
 
+/// Where the entries of a table that takes coded colour may lie.
+///
+/// Programs that keep a picture in integers wrap what lies outside 0 to 1 or cut it, each in its own way; entries of saturated
+/// colours lie as low as -0.43 before they are cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum EntryRange {
+    /// Cut to 0 to 1, what a display shows.
+    #[default]
+    Unit,
+    /// As the film gives them.
+    Any,
+}
+
 words! {
     Form, "form":
         Form::Plain = "plain" "A log2 shaper and one table: every program reads it; the scene's range is limited",
@@ -72,17 +85,17 @@ impl ShaperChoice {
 
     /// The coding that a table takes instead of scene-linear light.
     pub(super) fn coordinate(self, spaces: &ColourSpaces) -> Result<Option<Coordinate>, Error> {
-        let curve = match self {
+        let (curve, primaries) = match self {
             Self::Log2 | Self::Gotanda => return Ok(None),
             Self::Bevy => return Coordinate::bevy(spaces).map(Some),
-            Self::Acescct => SceneCurve::AcesCct,
-            Self::Logc4 => SceneCurve::LogC4,
-            Self::Slog3 => SceneCurve::SLog3,
-            Self::Intermediate => SceneCurve::DaVinciIntermediate,
-            Self::Pq => SceneCurve::Pq,
-            Self::Srgb => SceneCurve::Srgb,
+            Self::Acescct => (SceneCurve::AcesCct, "AP1"),
+            Self::Logc4 => (SceneCurve::LogC4, "ARRI Wide Gamut 4"),
+            Self::Slog3 => (SceneCurve::SLog3, "S-Gamut3.Cine"),
+            Self::Intermediate => (SceneCurve::DaVinciIntermediate, "DaVinci Wide Gamut"),
+            Self::Pq => (SceneCurve::Pq, "BT.2020"),
+            Self::Srgb => (SceneCurve::Srgb, "sRGB"),
         };
-        Coordinate::of_curve(curve, spaces).map(Some)
+        Coordinate::of_curve(self.word(), curve, primaries, spaces).map(Some)
     }
 }
 
@@ -109,6 +122,8 @@ pub struct Recipe {
     pub entries: Entries,
     /// How the entries are stored; what is applied and certified is what was stored.
     pub storage: Storage,
+    /// Where the entries of a table that takes coded colour may lie.
+    pub range: EntryRange,
     /// What the entries of a structured table are.
     pub coding: TableCoding,
     /// The exponentials of a direct form.
@@ -132,7 +147,25 @@ impl Recipe {
         };
         let (storage, coding) = (Storage::F32, TableCoding::Density);
         let nodes = DirectSettings::default().nodes;
-        Self { form, size, shaper: ShaperChoice::Log2, stops: None, entries, storage, coding, nodes }
+        let range = EntryRange::Unit;
+        Self { form, size, shaper: ShaperChoice::Log2, stops: None, entries, storage, range, coding, nodes }
+    }
+
+    /// The usual plain table behind a shaper: 33 nodes for scene-linear light, 65 for a coding (33 leave a false bright band
+    /// from cyan to blue in wide gamuts), the 64 that Bevy's tables have.
+    ///
+    /// ```
+    /// use onelight::baked::{Recipe, ShaperChoice};
+    /// assert_eq!(Recipe::taking(ShaperChoice::Logc4).size, 65);
+    /// ```
+    #[must_use]
+    pub fn taking(shaper: ShaperChoice) -> Self {
+        let size = match shaper {
+            ShaperChoice::Log2 | ShaperChoice::Gotanda => 33,
+            ShaperChoice::Bevy => 64,
+            _ => 65,
+        };
+        Self { size, shaper, ..Self::of(Form::Plain) }
     }
 
     /// A table of this size behind a log2 shaper fitted to the look: what a `.cube` file holds.

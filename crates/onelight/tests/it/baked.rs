@@ -73,8 +73,21 @@ fn a_report_says_what_a_person_needs() {
     for part in ["certificate: CIEDE2000", "all to +6 stops", "ColorChecker", "own tint of greys: C* 0.0 at 18 %"] {
         assert!(text.contains(part), "{text}");
     }
-    let [first, second, third] = baked.comments(Some(&found.summary())).try_into().unwrap();
-    assert!(first.contains("reinhard, neutral aim, plain 17^3") && second.starts_with("input: scene-linear srgb"));
-    assert!(third.starts_with("CIEDE2000 from the exact film") && baked.comments(None)[2] == "not certified");
+    let [look, input, output, measured] = baked.comments(Some(&found.summary())).try_into().unwrap();
+    assert!(look.contains("reinhard, neutral aim, plain 17^3"), "{look}");
+    assert!(input.starts_with("input: scene-linear light, srgb primaries"), "{input}");
+    assert!(output.starts_with("output: display srgb primaries, srgb coding"), "{output}");
+    assert!(measured.starts_with("CIEDE2000 from the exact film") && baked.comments(None)[3] == "not certified");
     assert!(!found.failures(0.0).is_empty());
+}
+
+#[test]
+fn a_coded_table_is_measured_within_its_coding() {
+    let look = Process::from(ToneProcess::default()).look().unwrap();
+    let baked = look.baked(&Recipe { size: 33, ..Recipe::taking(ShaperChoice::Srgb) }).unwrap();
+    let found = look.certify(&baked, &settings()).unwrap();
+    // 1.0, the brightest grey of sRGB, is 2.47 stops over mid grey.
+    assert_eq!(found.srgb.law.stops[1], 2.375);
+    // The hue circles and the chart go on to +6 stops and count there as what the coding holds of them.
+    assert!(found.srgb.max_found < 1.0 && found.srgb.hue_steps[3].max < 1.0, "{found}");
 }

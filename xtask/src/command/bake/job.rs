@@ -1,0 +1,144 @@
+//! The tables that a bake makes.
+
+use anyhow::{Context, Result, bail};
+use onelight::baked::{Baked, EntryRange, FileFormat, Form, Recipe, ShaperChoice, Target, smallest_under};
+use onelight::{Look, Nodes, TransferCurve, Word as _};
+
+use super::arguments::Arguments;
+use crate::progress::bar;
+
+/// One table or form with its files.
+pub(super) struct Job {
+    pub(super) recipe: Recipe,
+    pub(super) formats: Vec<FileFormat>,
+    /// The display coding, where it is not the look's own.
+    pub(super) coding: Option<TransferCurve>,
+    /// Programs that load the files, each with the way to do it.
+    pub(super) loads: Vec<(Target, &'static str)>,
+}
+
+/// The tables that the arguments ask for, at least one.
+pub(super) fn jobs(arguments: &Arguments, film: &Look) -> Result<Vec<Job>> {
+    if !arguments.targets.is_empty() {
+        return for_programs(arguments);
+    }
+    arguments.refuse_idle_options()?;
+    let job = |recipe: Recipe, formats| Job { recipe, formats, coding: None, loads: Vec::new() };
+    if arguments.leaves_the_table_open() {
+        let usual = [ShaperChoice::Log2, ShaperChoice::Srgb].map(Recipe::taking);
+        let sized = usual.map(|recipe| Recipe {
+            size: arguments.size.map_or(recipe.size, usize::from),
+            storage: arguments.storage.unwrap_or(recipe.storage),
+            ..recipe
+        });
+        return Ok(sized.map(|recipe| job(recipe, vec![FileFormat::Cube])).into());
+    }
+    let recipe = recipe(arguments, film)?;
+    let mut job = job(recipe, formats(arguments, recipe.form)?);
+    if recipe.shaper == ShaperChoice::Bevy {
+        job.coding = Some(TransferCurve::Linear);
+    }
+    Ok(vec![job])
+}
+
+/// The tables that programs load, each once.
+fn for_programs(arguments: &Arguments) -> Result<Vec<Job>> {
+    let mut jobs: Vec<Job> = Vec::new();
+    let programs = arguments.programs();
+    if let Some(shaper) = arguments.shaper
+        && (programs != [Target::Camera] || !shaper.is_coding())
+    {
+        bail!("--shaper {} beside --for changes nothing, expected a coding with --for camera", shaper.word());
+    }
+    for target in programs {
+        for mut table in target.tables() {
+            table.recipe.shaper = arguments.shaper.unwrap_or(table.recipe.shaper);
+            let coding = target.usual_coding().filter(|_| !arguments.look.names_output_coding());
+            let same = |job: &&mut Job| job.recipe == table.recipe && job.coding == coding;
+            match jobs.iter_mut().find(same) {
+                Some(job) => {
+                    if !job.formats.contains(&table.format) {
+                        job.formats.push(table.format);
+                    }
+                    job.loads.push((target, table.load));
+                }
+                None => jobs.push(Job {
+                    recipe: table.recipe,
+                    formats: vec![table.format],
+                    coding,
+                    loads: vec![(target, table.load)],
+                }),
+            }
+        }
+    }
+    Ok(jobs)
+}
+
+fn recipe(arguments: &Arguments, film: &Look) -> Result<Recipe> {
+    let form = arguments.form.unwrap_or_default();
+    match arguments.max_de {
+        Some(limit) if form == Form::Direct => {
+            return Ok(Recipe { nodes: Nodes::UnderMaxDe(limit), ..Recipe::of(form) });
+        }
+        Some(limit) => {
+            let progress = bar("choosing", 0);
+            let found = smallest_under(film, limit, |tried, all| {
+                progress.set_length(all as u64);
+                progress.set_position(tried as u64);
+            });
+            progress.finish_and_clear();
+            return found.with_context(|| format!("--max-de {limit}"));
+        }
+        None => {}
+    }
+    let usual = match arguments.shaper {
+        Some(shaper) => Recipe::taking(shaper),
+        None => Recipe::of(form),
+    };
+    // The size that a format's programs expect, where it is the only one.
+    let expected = match arguments.format.as_slice() {
+        [format] => format.usual_size(),
+        _ => None,
+    };
+    Ok(Recipe {
+        size: arguments.size.map_or_else(|| expected.unwrap_or(usual.size), usize::from),
+        stops: arguments.stops,
+        entries: arguments.entries.unwrap_or(usual.entries),
+        storage: arguments.storage.unwrap_or(usual.storage),
+        range: if arguments.unclamped { EntryRange::Any } else { EntryRange::Unit },
+        coding: arguments.coding.unwrap_or(usual.coding),
+        nodes: arguments.nodes.unwrap_or(usual.nodes),
+        ..usual
+    })
+}
+
+fn formats(arguments: &Arguments, form: Form) -> Result<Vec<FileFormat>> {
+    let mut formats = arguments.format.clone();
+    if formats.is_empty() {
+        formats.push(FileFormat::usual(form));
+    }
+    formats.dedup();
+    if let Some(format) = formats.iter().find(|format| !format.holds(form)) {
+        let other = if *format == FileFormat::Json { Form::Direct } else { Form::Plain };
+        bail!(
+            "--format {} cannot hold the {} form, expected {}, or --form {}",
+            format.word(),
+            form.word(),
+            FileFormat::usual(form).word(),
+            other.word()
+        );
+    }
+    let coded = arguments.shaper.is_some_and(ShaperChoice::is_coding);
+    if let Some(format) = formats.iter().find(|format| format.needs_coding() && !coded) {
+        bail!(
+            "--format {} holds no shaper for scene-linear light, expected a coding such as --shaper srgb",
+            format.word()
+        );
+    }
+    Ok(formats)
+}
+
+/// The table of a look, its range fitted to the colours of a scene where there are some.
+pub(super) fn baked(film: &Look, recipe: &Recipe, scene: Option<&[[f64; 3]]>) -> Result<Baked> {
+    Ok(scene.map_or_else(|| film.baked(recipe), |colours| film.baked_for_scene(recipe, colours))?)
+}

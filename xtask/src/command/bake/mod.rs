@@ -1,0 +1,185 @@
+mod arguments;
+mod job;
+mod measured;
+
+use std::fmt::Write as _;
+
+use anyhow::Result;
+use onelight::baked::{Baked, FileFormat, Form};
+use onelight::{Look, Process, Word as _};
+use serde_json::{Value, json};
+
+pub(crate) use self::arguments::Arguments;
+use self::job::Job;
+use self::measured::Measured;
+use crate::atomic_file::AtomicFiles;
+use crate::look::ChosenLook;
+use crate::progress::Clock;
+use crate::{Report, folders, preview, scene_colours};
+
+/// Stops over mid grey beyond which the 1D table of a `.cube`, whose steps are equal in light, leaves too few of them to the
+/// shadows: 65536 steps to +14 stops are 0.05 each.
+const CUBE_STOPS: f64 = 14.0;
+
+pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
+    let mut clock = Clock::default();
+    let look = arguments.look.chosen()?;
+    let process = &look.process;
+    let film = clock.time("compile", || look.look())?;
+    let scene = clock.time("scene", || scene_colours::read(&arguments.scene, process))?;
+    let jobs = clock.time("choose", || job::jobs(arguments, &film))?;
+    let mut tables = Vec::new();
+    for job in jobs {
+        tables.push(Table::new(arguments, &look, &film, job, scene.as_deref(), &mut clock)?);
+    }
+    let folder = match &arguments.out {
+        Some(folder) => folders::make(folder)?,
+        None => folders::output(&process.name())?,
+    };
+    let mut files = AtomicFiles::in_folder(&folder);
+    for table in &mut tables {
+        clock.time("write", || table.write(&mut files))?;
+    }
+    files.add("look.toml", look.text_in(&folder).into_bytes());
+    let mut json = json(process, &tables);
+    if !arguments.quick {
+        files.add("look.json", serde_json::to_vec_pretty(&json)?);
+        files.add("preview.png", clock.time("preview", || preview::sheet(&tables[0].baked))?);
+    }
+    let written = clock.time("save", || files.write())?;
+    let shown: Vec<String> = written.iter().map(|file| folders::shown(file)).collect();
+    let mut text = format!("{}, {} aim, in {}\n", process.name(), process.aim().word(), folders::shown(&folder));
+    for (place, table) in tables.iter().enumerate() {
+        text.push_str(&table.text(place == 0));
+    }
+    if arguments.quick {
+        text.push_str("not certified: how far it lies from the film was not measured (leave out --quick)\n");
+    }
+    let _ = writeln!(text, "time: {}", clock.sentence());
+    json["files"] = shown.into();
+    json["seconds"] = clock.json();
+    Ok(Report { text, json, as_json: arguments.json })
+}
+
+/// A table that was baked, and what is said of it.
+struct Table {
+    job: Job,
+    baked: Baked,
+    measured: Option<Measured>,
+    notes: Vec<String>,
+    /// The names of its files, once they are written.
+    names: Vec<String>,
+}
+
+impl Table {
+    fn new(
+        arguments: &Arguments,
+        look: &ChosenLook,
+        film: &Look,
+        job: Job,
+        scene: Option<&[[f64; 3]]>,
+        clock: &mut Clock,
+    ) -> Result<Self> {
+        let mut notes = Vec::new();
+        let own = look.process.spaces().output_coding;
+        let other = match job.coding.filter(|coding| *coding != own) {
+            Some(coding) => {
+                notes.push(format!("coded {} for its programs, not {}", coding.word(), own.word()));
+                let mut look = look.clone();
+                look.process.spaces_mut().output_coding = coding;
+                Some(clock.time("compile", || look.look())?)
+            }
+            None => None,
+        };
+        let film = other.as_ref().unwrap_or(film);
+        let baked = clock.time("bake", || job::baked(film, &job.recipe, scene))?;
+        if let Some(note) = too_wide_for_cube(&job, &baked) {
+            notes.push(note);
+        }
+        let measured = match arguments.quick {
+            true => None,
+            false => {
+                let measure = || Measured::new(film, &baked, &job.formats, scene, arguments.max_de);
+                Some(clock.time("certify", measure)?)
+            }
+        };
+        Ok(Self { job, baked, measured, notes, names: Vec::new() })
+    }
+
+    fn write(&mut self, files: &mut AtomicFiles) -> Result<()> {
+        let measured = self.measured.as_ref().map(Measured::summary);
+        let comments = self.baked.comments(measured.as_deref());
+        for format in &self.job.formats {
+            for file in self.baked.files(*format, &comments)? {
+                files.add(&file.name, file.bytes);
+                self.names.push(file.name);
+            }
+        }
+        Ok(())
+    }
+
+    /// What people read of it: all of the first table's certificate, a line of the others'.
+    fn text(&self, whole: bool) -> String {
+        let mut text = String::new();
+        let _ = writeln!(text, "{}: {}", self.names.join(", "), self.baked.describe());
+        let _ = writeln!(text, "  takes {}", self.baked.input_in_words());
+        for (target, load) in &self.job.loads {
+            let _ = writeln!(text, "  {}: {load}", target.word());
+        }
+        for note in &self.notes {
+            let _ = writeln!(text, "  note: {note}");
+        }
+        let Some(measured) = &self.measured else { return text };
+        if whole {
+            text.push_str(&measured.text());
+        } else {
+            let _ = writeln!(text, "  {}", measured.summary());
+        }
+        for sentence in measured.warnings() {
+            let _ = writeln!(text, "  warning: {sentence}");
+        }
+        text
+    }
+
+    fn json(&self) -> Value {
+        let recipe = &self.job.recipe;
+        let mut json = json!({
+            "files": self.names,
+            "form": recipe.form.word(),
+            "input": self.baked.input_in_words(),
+            "output": self.baked.output_in_words(),
+            "description": self.baked.describe(),
+            "certified": self.measured.is_some(),
+        });
+        if let Some(table) = self.baked.table() {
+            json["size"] = table.size().into();
+            json["storage"] = recipe.storage.word().into();
+            json["coding"] = recipe.coding.word().into();
+        }
+        if let (Some(json), Some(measured)) = (json.as_object_mut(), &self.measured) {
+            json.extend(measured.json());
+        }
+        json
+    }
+}
+
+/// Why a `.cube` with a wide range is no good: its certificate shows it, a quick bake has none.
+fn too_wide_for_cube(job: &Job, baked: &Baked) -> Option<String> {
+    let stops = (baked.max()? / onelight::spectra::MID_GREY).log2();
+    let shaped = job.recipe.form == Form::Plain && baked.coordinate().is_none();
+    (shaped && stops > CUBE_STOPS && job.formats.contains(&FileFormat::Cube)).then(|| {
+        format!(
+            "the .cube's 1D table has equal steps of light, too wide for shadows where it ends at {stops:+.1} stops; \
+             --format clf or --form structured keep them"
+        )
+    })
+}
+
+/// The first table's entries, and those of each table.
+fn json(process: &Process, tables: &[Table]) -> Value {
+    let all: Vec<Value> = tables.iter().map(Table::json).collect();
+    let mut json = all[0].clone();
+    json["process"] = json!(process);
+    json["tables"] = all.into();
+    json
+}
