@@ -3,59 +3,58 @@
 //! A blurred number is the pixel's own plus weighted differences to its neighbours, so that a uniform field comes out to the bit as it went
 //! in. Sums are in one order for every vector length: results are the same on all machines.
 
-/// Numbers that are worked on together: whole vectors of every machine.
-pub(crate) const LANES: usize = 16;
+/// Numbers that are worked on together: several whole vectors of every machine, so that finding the rows costs little beside them.
+pub(crate) const LANES: usize = 32;
 
-/// `f` of the pixel's own number and of the weighted differences to its neighbours along the row. `padded` begins `side.len()` pixels before
-/// `out` and ends as many after it.
+/// So many numbers that whole groups of [`LANES`] cover `count` of them.
+pub(crate) fn whole_lanes(count: usize) -> usize {
+    count.next_multiple_of(LANES)
+}
+
+/// The row blurred along itself. `padded` begins `side.len()` pixels before `out`; `out` is whole groups of [`LANES`], `padded` at least
+/// `2 * side.len()` longer.
 #[inline(always)]
 pub(crate) fn along_row(side: &[f32], padded: &[f32], out: &mut [f32]) {
     let radius = side.len();
-    for (block, out) in out.chunks_mut(LANES).enumerate() {
+    for (block, out) in out.as_chunks_mut::<LANES>().0.iter_mut().enumerate() {
         let start = block * LANES + radius;
-        let len = out.len();
-        let own = lanes(&padded[start..], len);
-        let mut sum = [0.0; LANES];
-        for (distance, &tap) in (1..).zip(side) {
-            let (before, after) = (lanes(&padded[start - distance..], len), lanes(&padded[start + distance..], len));
-            add_differences(&mut sum, tap, &before, &after, &own);
+        let own = lanes(padded, start);
+        let mut sum = *own;
+        for (i, &tap) in side.iter().enumerate() {
+            add_differences(&mut sum, tap, lanes(padded, start - i - 1), lanes(padded, start + i + 1), own);
         }
-        for i in 0..len {
-            out[i] = own[i] + sum[i];
-        }
+        *out = sum;
     }
 }
 
-/// The weighted differences of the rows about row 0 to that row, added up: what a blur across rows adds to it.
+/// The group at `start` of row `y`, blurred across the rows of `plane`, which are `stride` long.
 #[inline(always)]
-pub(crate) fn across_rows<'a>(
-    side: &[f32],
-    row: impl Fn(isize) -> &'a [f32],
-    start: usize,
-    len: usize,
-) -> [f32; LANES] {
-    let own = lanes(&row(0)[start..], len);
-    let mut sum = [0.0; LANES];
-    for (distance, &tap) in (1..).zip(side) {
-        let (before, after) = (lanes(&row(-distance)[start..], len), lanes(&row(distance)[start..], len));
-        add_differences(&mut sum, tap, &before, &after, &own);
+pub(crate) fn across_rows(side: &[f32], plane: &[f32], stride: usize, y: usize, start: usize) -> [f32; LANES] {
+    let at = y * stride + start;
+    let own = lanes(plane, at);
+    let mut sum = *own;
+    for (i, &tap) in side.iter().enumerate() {
+        let distance = (i + 1) * stride;
+        add_differences(&mut sum, tap, lanes(plane, at - distance), lanes(plane, at + distance), own);
     }
     sum
 }
 
-/// The first `LANES` numbers, or `len` of them and zeros.
+/// The group that begins at `start`; zeros where there is no whole one, which no caller asks for.
 #[inline(always)]
-pub(crate) fn lanes(numbers: &[f32], len: usize) -> [f32; LANES] {
-    if let Some(all) = numbers.first_chunk::<LANES>() {
-        return *all;
-    }
-    let mut some = [0.0; LANES];
-    some[..len].copy_from_slice(&numbers[..len]);
-    some
+pub(crate) fn lanes(numbers: &[f32], start: usize) -> &[f32; LANES] {
+    const NONE: [f32; LANES] = [0.0; LANES];
+    numbers.get(start..).and_then(|from| from.first_chunk()).unwrap_or(&NONE)
 }
 
 #[inline(always)]
-fn add_differences(sum: &mut [f32; LANES], tap: f32, before: &[f32; LANES], after: &[f32; LANES], own: &[f32; LANES]) {
+pub(crate) fn add_differences(
+    sum: &mut [f32; LANES],
+    tap: f32,
+    before: &[f32; LANES],
+    after: &[f32; LANES],
+    own: &[f32; LANES],
+) {
     for i in 0..LANES {
         sum[i] += tap * ((before[i] + after[i]) - (own[i] + own[i]));
     }

@@ -1,14 +1,23 @@
 //! Cells: blocks of pixels counted from the frame's origin, their means, and the way back to pixels.
 
-use crate::blur::{LANES, across_rows, along_row, copy_padded, lanes};
+use std::ops::Range;
+
+use fearless_simd::{Level, dispatch};
+
+use crate::blur::{LANES, across_rows, along_row, copy_padded, whole_lanes};
 use crate::taps::Taps;
+
+/// The same where blurs are added and taken from each other, and what is left must be right.
+const CELLS_PER_SIGMA_OF_SUMS: f64 = 2.5;
+/// A blur is made in cells of as many pixels as leave its standard deviation at least so many cells wide.
+pub(crate) const CELLS_PER_SIGMA: f64 = 1.4;
 
 /// Cells along one axis of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct CellAxis {
     /// Pixels in a cell.
     size: usize,
-    /// Where the picture begins in the frame.
+    /// Where the picture begins in the frame, in pixels.
     offset: i64,
     /// Pixels of the picture.
     pixels: usize,
@@ -20,10 +29,7 @@ pub(crate) struct CellAxis {
 
 impl CellAxis {
     pub(crate) fn new(size: usize, offset: i32, pixels: usize) -> Self {
-        let (size, offset) = (size.max(1), i64::from(offset));
-        let of = |pixel: i64| (pixel + offset).div_euclid(size as i64);
-        let first = of(0);
-        Self { size, offset, pixels, first, count: (of(pixels as i64 - 1) - first) as usize + 1 }
+        Self { size: 1, offset: 0, pixels, first: i64::from(offset), count: pixels }.of_cells(size)
     }
 
     /// Pixels in a cell.
@@ -32,7 +38,7 @@ impl CellAxis {
     }
 
     /// The picture's pixels in a cell.
-    pub(crate) fn pixels_of(&self, cell: usize) -> std::ops::Range<usize> {
+    pub(crate) fn pixels_of(&self, cell: usize) -> Range<usize> {
         let start = (self.first + cell as i64) * self.size as i64 - self.offset;
         let inside = |pixel: i64| pixel.clamp(0, self.pixels as i64) as usize;
         inside(start)..inside(start + self.size as i64)
@@ -52,6 +58,14 @@ impl CellAxis {
         let t = place.rem_euclid(2 * size) as f32 / (2 * size) as f32;
         let inside = |cell: i64| (cell - self.first).clamp(0, self.count as i64 - 1) as usize;
         (inside(lower), inside(lower + 1), t)
+    }
+
+    /// Cells of these cells.
+    fn of_cells(&self, size: usize) -> Self {
+        let (size, offset, pixels) = (size.max(1), self.first, self.count);
+        let of = |cell: i64| (cell + offset).div_euclid(size as i64);
+        let first = of(0);
+        Self { size, offset, pixels, first, count: (of(pixels as i64 - 1) - first) as usize + 1 }
     }
 
     /// Variance, in square pixels, that the mean over cells and the way back add to a blur.
@@ -77,12 +91,12 @@ pub(crate) fn cell_taps(axis: &CellAxis, sigma: f64) -> Taps {
 pub(crate) struct CellRows {
     pub(crate) width: usize,
     /// Which rows of cells these are.
-    pub(crate) rows: std::ops::Range<usize>,
+    pub(crate) rows: Range<usize>,
     pub(crate) means: Vec<f32>,
 }
 
 impl CellRows {
-    pub(crate) fn new(width: usize, rows: std::ops::Range<usize>) -> Self {
+    pub(crate) fn new(width: usize, rows: Range<usize>) -> Self {
         Self { width, means: vec![0.0; width * rows.len()], rows }
     }
 
@@ -98,23 +112,64 @@ impl CellRows {
     }
 
     /// These rows blurred, with those about them; beyond the first and last row held they repeat, as the cells at the ends of a row do.
-    pub(crate) fn blurred(&self, x: &[f32], y: &[f32], rows: std::ops::Range<usize>) -> Self {
-        let (first, last) = (rows.start.saturating_sub(y.len()), rows.end + y.len());
-        let mut across = Self::new(self.width, first.max(self.rows.start)..last.min(self.rows.end));
-        let mut padded = vec![0.0; self.width + 2 * x.len()];
-        for row in across.rows.clone() {
-            copy_padded(self.row(row as isize), -(x.len() as isize), &mut padded);
-            along_row(x, &padded, across.row_mut(row));
-        }
+    pub(crate) fn blurred(&self, level: Level, x: &[f32], y: &[f32], rows: Range<usize>) -> Self {
         let mut blurred = Self::new(self.width, rows);
-        for row in blurred.rows.clone() {
-            let (of, out) = (|distance: isize| across.row(row as isize + distance), blurred.row_mut(row));
-            for start in (0..out.len()).step_by(LANES) {
-                let len = LANES.min(out.len() - start);
-                let (own, sum) = (lanes(&of(0)[start..], len), across_rows(y, of, start, len));
-                for i in 0..len {
-                    out[start + i] = own[i] + sum[i];
-                }
+        dispatch!(level, _simd => self.blur_into(x, y, &mut blurred));
+        blurred
+    }
+
+    #[inline(always)]
+    fn blur_into(&self, x: &[f32], y: &[f32], blurred: &mut Self) {
+        let stride = whole_lanes(self.width);
+        let mut padded = vec![0.0; stride + 2 * x.len()];
+        let mut across = vec![0.0; stride * (blurred.rows.len() + 2 * y.len())];
+        for (row, across) in across.chunks_exact_mut(stride).enumerate() {
+            let row = (blurred.rows.start + row) as isize - y.len() as isize;
+            copy_padded(self.row(row), -(x.len() as isize), &mut padded);
+            along_row(x, &padded, across);
+        }
+        for (row, out) in blurred.means.chunks_exact_mut(self.width).enumerate() {
+            for (block, out) in out.chunks_mut(LANES).enumerate() {
+                let sum = across_rows(y, &across, stride, row + y.len(), block * LANES);
+                out.copy_from_slice(&sum[..out.len()]);
+            }
+        }
+    }
+
+    /// These rows, all there are of a picture, blurred by a Gaussian of `sigma` pixels: wide ones in coarser cells still, which are counted
+    /// from the frame's origin as these are.
+    pub(crate) fn blurred_by(&self, level: Level, axes: [&CellAxis; 2], sigma: [f64; 2]) -> Self {
+        let sizes =
+            [0, 1].map(|i| (sigma[i] / (axes[i].size as f64 * CELLS_PER_SIGMA_OF_SUMS)).floor().max(1.0) as usize);
+        if sizes == [1, 1] {
+            let [x, y] = [0, 1].map(|i| cell_taps(axes[i], sigma[i]).rounded());
+            return self.blurred(level, &x, &y, self.rows.clone());
+        }
+        // The finer cells blur as well, in their own pixels.
+        let coarse = [0, 1].map(|i| axes[i].of_cells(sizes[i]));
+        let taps = [0, 1].map(|i| {
+            let size = axes[i].size as f64;
+            let own = axes[i].own_variance() / (size * size);
+            let sigma = ((sigma[i] / size).powi(2) - own).max(0.0).sqrt();
+            cell_taps(&coarse[i], sigma).rounded()
+        });
+        let [x, y] = &coarse;
+        let mut means = Self::new(x.count, 0..y.count);
+        let mut sums = CellSums::new(self.width);
+        for cell in 0..y.count {
+            for row in y.pixels_of(cell) {
+                sums.add(self.row(row as isize));
+            }
+            sums.take(x, means.row_mut(cell));
+        }
+        let means = means.blurred(level, &taps[0], &taps[1], 0..y.count);
+        let expansion = Expansion::new(x);
+        let mut blurred = Self::new(self.width, self.rows.clone());
+        let mut rows = ExpandedRows::default();
+        for row in self.rows.clone() {
+            let (upper, lower, t) = rows.at(&means, y, &expansion, row, 0, self.width);
+            for ((out, upper), lower) in blurred.row_mut(row).iter_mut().zip(upper).zip(lower) {
+                *out = upper + t * (lower - upper);
             }
         }
         blurred
@@ -184,6 +239,42 @@ impl Expansion {
     }
 }
 
+/// The two rows of cells between which a row of pixels lies, brought to pixels once for all the rows between them.
+#[derive(Debug, Default)]
+pub(crate) struct ExpandedRows {
+    upper: Vec<f32>,
+    lower: Vec<f32>,
+    held: Option<(usize, usize)>,
+}
+
+impl ExpandedRows {
+    /// Forgets what is held: the next rows are of other cells or columns.
+    pub(crate) fn clear(&mut self) {
+        self.held = None;
+    }
+
+    /// Both rows for row `y` of pixels, `width` of them from `start`, and how far towards the second it lies.
+    pub(crate) fn at(
+        &mut self,
+        cells: &CellRows,
+        axis: &CellAxis,
+        expansion: &Expansion,
+        y: usize,
+        start: usize,
+        width: usize,
+    ) -> (&[f32], &[f32], f32) {
+        let (above, below, t) = axis.between(y);
+        if self.held != Some((above, below)) {
+            self.upper.resize(width, 0.0);
+            self.lower.resize(width, 0.0);
+            expansion.expand(cells.row(above as isize), start, &mut self.upper);
+            expansion.expand(cells.row(below as isize), start, &mut self.lower);
+            self.held = Some((above, below));
+        }
+        (&self.upper, &self.lower, t)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -230,13 +321,31 @@ mod tests {
                 sums.add(&row);
                 let mut cells = CellRows::new(axis.count, 0..1);
                 sums.take(&axis, cells.row_mut(0));
-                let blurred = cells.blurred(&taps, &[], 0..1);
+                let blurred = cells.blurred(Level::new(), &taps, &[], 0..1);
                 let mut out = vec![0.0; pixels];
                 Expansion::new(&axis).expand(blurred.row(0), 0, &mut out);
                 let square = |(x, v): (usize, &f32)| (x as f64 - (2000 + phase) as f64).powi(2) * f64::from(*v);
                 variance += out.iter().enumerate().map(square).sum::<f64>() / size as f64;
             }
             assert!((variance.sqrt() / sigma - 1.0).abs() < 0.01, "{size}: {} for {sigma}", variance.sqrt());
+        }
+    }
+
+    #[test]
+    fn coarser_cells_blur_alike() {
+        let pixels = 900;
+        let axes = [CellAxis::new(3, 7, pixels), CellAxis::new(1, 0, 1)];
+        let mut cells = CellRows::new(axes[0].count, 0..1);
+        for (i, mean) in cells.row_mut(0).iter_mut().enumerate() {
+            *mean = ((i * 37) % 64) as f32 + if i > 150 { 90.0 } else { 0.0 };
+        }
+        let sigma = 42.0;
+        let taps = cell_taps(&axes[0], sigma).rounded();
+        let exact = cells.blurred(Level::new(), &taps, &[], 0..1);
+        let coarse = cells.blurred_by(Level::new(), [&axes[0], &axes[1]], [sigma, 0.0]);
+        // Away from the edges, where the one repeats a cell and the other a cell of cells.
+        for (exact, coarse) in exact.means.iter().zip(&coarse.means).skip(60).take(180) {
+            assert!((exact - coarse).abs() < 1.5, "{exact} {coarse}");
         }
     }
 }

@@ -23,7 +23,7 @@
 //!
 //! let frame = Frame::new([256, 128], FilmFormat::Super16.pitch(2048, 1.0)?)?;
 //! let grain = Grain::new(AmountGranularity::of_stock(&stock)?, frame.pitch(), GrainSettings::default())?;
-//! let stage = SpatialStage::new(frame).with_sharpness(&Sharpness::of_stock(&stock)?).with_grain(grain);
+//! let stage = SpatialStage::new(frame).with_sharpness(&Sharpness::of_stock(&stock)?).with_grain(grain)?;
 //!
 //! // A toy curve; a real one comes from the film.
 //! let curve = |exposure: [f32; 3]| exposure.map(|e| 0.4 * (e / 0.01 + 1.0).log10());
@@ -67,7 +67,7 @@ pub use halation::{Antihalation, FilmBase, Halation, HalationCells, HalationSett
 pub use mtf::MtfFit;
 pub use planes::Planes;
 pub use sharpness::Sharpness;
-pub use stage::SpatialStage;
+pub use stage::{SpatialStage, StageBuffers};
 pub use taps::Taps;
 
 /// The examples of README.md, compiled and run with the tests.

@@ -40,6 +40,19 @@ impl Planes {
         Ok(Self { width, rows, layers: std::array::from_fn(|_| vec![0.0; numbers]) })
     }
 
+    /// Makes these the planes of other rows; what is in them does not matter.
+    pub(crate) fn reset(&mut self, width: usize, rows: Range<usize>) -> Result<(), Error> {
+        let numbers = Self::limit(width, rows.len())?;
+        self.layers.iter_mut().for_each(|layer| layer.resize(numbers, 0.0));
+        (self.width, self.rows) = (width, rows);
+        Ok(())
+    }
+
+    /// No rows yet.
+    pub(crate) fn none() -> Self {
+        Self { width: 0, rows: 0..0, layers: [Vec::new(), Vec::new(), Vec::new()] }
+    }
+
     /// The numbers of a plane, before they are allocated.
     pub(crate) fn limit(width: usize, rows: usize) -> Result<usize, Error> {
         width.checked_mul(rows).filter(|count| (1..=MAX_NUMBERS).contains(count)).ok_or_else(|| {

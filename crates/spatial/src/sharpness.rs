@@ -1,14 +1,11 @@
 use onelight_film::{PerLayer, Stock};
 
-use crate::cells::{CellAxis, cell_taps};
+use crate::cells::{CELLS_PER_SIGMA, CellAxis, cell_taps};
 use crate::error::Error;
 use crate::format::Pitch;
 use crate::frame::Frame;
 use crate::mtf::MtfFit;
 use crate::taps::Taps;
-
-/// A blur that is wider, in pixels, than this times a whole number is made of cells of that many pixels.
-const CELLS_PER_SIGMA: f64 = 1.4;
 
 /// A strength of adjacency that changes no amount by more than grain of a hundredth of its least strength.
 const LEAST_ADJACENCY: f64 = 1e-4;

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use crate::cells::{CellRows, CellSums, Expansion};
 use crate::chain::Development;
 use crate::error::{Error, ErrorKind};
+use crate::format::Pitch;
 use crate::frame::Frame;
 use crate::grain::Grain;
 use crate::halation::{Halation, HalationCells, HaloField};
@@ -54,6 +55,31 @@ pub struct SpatialStage {
     level: Level,
 }
 
+/// Memory of a stage's rows, kept from band to band.
+///
+/// ```
+/// use onelight_spatial::{Frame, Pitch, Planes, SpatialStage, StageBuffers};
+/// let stage = SpatialStage::new(Frame::new([64, 100], Pitch::new(12.0, 12.0)?)?);
+/// let mut buffers = StageBuffers::default();
+/// for band in [0..50, 50..100] {
+///     let exposures = Planes::new(64, stage.exposure_rows(band.clone()))?;
+///     let amounts = stage.amounts_in(&mut buffers, &exposures, None, band.clone(), &|e: [f32; 3]| e)?;
+///     assert_eq!(amounts.rows(), band);
+/// }
+/// # Ok::<(), onelight_spatial::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct StageBuffers {
+    developed: Planes,
+    finished: Planes,
+}
+
+impl Default for StageBuffers {
+    fn default() -> Self {
+        Self { developed: Planes::none(), finished: Planes::none() }
+    }
+}
+
 impl SpatialStage {
     /// Without any effect: development alone.
     #[must_use]
@@ -73,10 +99,17 @@ impl SpatialStage {
         Self { halation: Some(halation), ..self }
     }
 
-    /// With grain made for pixels of this frame's size.
-    #[must_use]
-    pub fn with_grain(self, grain: Grain) -> Self {
-        Self { grain: Some(grain), ..self }
+    /// With grain.
+    ///
+    /// # Errors
+    /// If it was made for pixels of another size than this frame's.
+    pub fn with_grain(self, grain: Grain) -> Result<Self, Error> {
+        let (found, expected) = (grain.pitch(), self.frame.pitch());
+        if found != expected {
+            let um = |pitch: Pitch| format!("pixels of {} by {} um", pitch.x_um(), pitch.y_um());
+            return Err(ErrorKind::Planes { what: "grain", found: um(found), expected: um(expected) }.into());
+        }
+        Ok(Self { grain: Some(grain), ..self })
     }
 
     /// The same for another picture of the same size and place in its frame: the next of a sequence.
@@ -142,20 +175,39 @@ impl SpatialStage {
         rows: Range<usize>,
         development: &impl Development,
     ) -> Result<Planes, Error> {
+        let mut buffers = StageBuffers::default();
+        self.amounts_in(&mut buffers, exposures, halo, rows, development)?;
+        Ok(buffers.finished)
+    }
+
+    /// The same in memory that is used again: for band after band.
+    ///
+    /// # Errors
+    /// As [`SpatialStage::amounts`].
+    pub fn amounts_in<'a>(
+        &self,
+        buffers: &'a mut StageBuffers,
+        exposures: &Planes,
+        halo: Option<&HaloField>,
+        rows: Range<usize>,
+        development: &impl Development,
+    ) -> Result<&'a Planes, Error> {
         self.check(exposures, halo, &rows)?;
-        let developed = self.developed(exposures, halo, self.amount_rows(rows.clone()), development)?;
+        let StageBuffers { developed, finished } = buffers;
+        developed.reset(self.frame.width(), self.amount_rows(rows.clone()))?;
+        self.develop(exposures, halo, developed, development);
         if self.grain.is_none() && self.layers().all(|layer| layer.adjacency.is_none()) {
-            return Ok(developed);
+            std::mem::swap(developed, finished);
+            return Ok(finished);
         }
-        let cells: Vec<_> =
-            (0..3).into_par_iter().map(|layer| self.adjacency_cells(&developed, layer, &rows)).collect();
-        let mut finished = Planes::new(self.frame.width(), rows)?;
-        self.for_each_strip(&mut finished, |tile, scratch, strip| {
-            for layer in 0..3 {
+        let developed = &*developed;
+        let cells: Vec<_> = (0..3).into_par_iter().map(|layer| self.adjacency_cells(developed, layer, &rows)).collect();
+        finished.reset(self.frame.width(), rows)?;
+        self.for_each_strip(finished, |tile, scratch, strip| {
+            for (layer, cells) in cells.iter().enumerate() {
                 let mut out: Vec<&mut [f32]> = strip.iter_mut().map(|rows| &mut *rows[layer]).collect();
                 let adjacency = self.blurs.as_ref().and_then(|blurs| blurs[layer].adjacency.as_ref());
-                let cells = cells[layer].as_ref();
-                adjacency_layer(self.level, (&developed, layer), tile, adjacency, cells, scratch, &mut out);
+                adjacency_layer(self.level, (developed, layer), tile, adjacency, cells.as_ref(), scratch, &mut out);
             }
             if let Some(grain) = &self.grain {
                 add_grain(self.level, grain, self.frame.number(), tile, self.frame.offset(), scratch, strip);
@@ -179,20 +231,24 @@ impl SpatialStage {
         match (&self.halation, halo) {
             (Some(_), None) => refuse("halo", "none".to_owned(), "that of the whole picture's exposures".to_owned()),
             (None, Some(_)) => refuse("halo", "one".to_owned(), "none without halation".to_owned()),
+            (Some(_), Some(halo)) if !halo.is_of(&self.frame) => refuse(
+                "halo",
+                "that of another picture".to_owned(),
+                "that of this one's size, pitch and offset".to_owned(),
+            ),
             _ => Ok(()),
         }
     }
 
     /// Rows after scatter, halation and development.
-    fn developed(
+    fn develop(
         &self,
         exposures: &Planes,
         halo: Option<&HaloField>,
-        rows: Range<usize>,
+        developed: &mut Planes,
         development: &impl Development,
-    ) -> Result<Planes, Error> {
-        let mut developed = Planes::new(self.frame.width(), rows)?;
-        self.for_each_strip(&mut developed, |tile, scratch, strip| {
+    ) {
+        self.for_each_strip(developed, |tile, scratch, strip| {
             for layer in 0..3 {
                 let mut out: Vec<&mut [f32]> = strip.iter_mut().map(|rows| &mut *rows[layer]).collect();
                 let scatter = self.blurs.as_ref().and_then(|blurs| blurs[layer].scatter.as_ref());
@@ -202,7 +258,6 @@ impl SpatialStage {
                 development.develop(rows.each_mut().map(|row| &mut **row));
             }
         });
-        Ok(developed)
     }
 
     /// The blurred cells of a layer that the amounts of `rows` need, if its adjacency is made in cells.
@@ -217,7 +272,8 @@ impl SpatialStage {
             }
             sums.take(x, cells.row_mut(cell));
         }
-        Some((cells.blurred(x_taps, y_taps, needed_cells(y, rows, 0)), Expansion::new(x)))
+        let blurred = cells.blurred(self.level, x_taps, y_taps, needed_cells(y, rows, 0));
+        Some((blurred, Expansion::new(x)))
     }
 
     /// Hands the tiles of all strips to `work`, strips on the threads of the current pool.

@@ -2,10 +2,10 @@
 
 use fearless_simd::{Level, dispatch};
 
-use crate::blur::{LANES, across_rows, along_row, copy_padded, lanes};
-use crate::cells::{CellRows, Expansion};
+use crate::blur::{LANES, across_rows, along_row, copy_padded, lanes, whole_lanes};
+use crate::cells::{CellRows, ExpandedRows, Expansion};
 use crate::grain::noise::{correlate_row, correlate_rows, field_sigma, white_row};
-use crate::grain::{Grain, NoiseKey};
+use crate::grain::{Grain, NoiseKey, StrengthTable};
 use crate::halation::HaloField;
 use crate::planes::{Planes, believed};
 use crate::sharpness::{Adjacency, AdjacencyBlur, Scatter};
@@ -30,6 +30,11 @@ impl Tile {
         let of = move |i: usize| (self.y + i).saturating_sub(margin).min(self.height - 1);
         (0..self.rows + 2 * margin).map(of)
     }
+
+    /// Numbers in a row of scratch.
+    fn stride(&self) -> usize {
+        whole_lanes(self.width)
+    }
 }
 
 /// Room for the rows of a tile, kept between tiles.
@@ -38,10 +43,9 @@ pub(crate) struct Scratch {
     padded: Vec<f32>,
     narrow: Vec<f32>,
     wide: Vec<f32>,
-    halo: [Vec<f32>; 2],
+    cells: ExpandedRows,
     white: [Vec<i32>; 3],
     field: [Vec<i32>; 3],
-    noise: Vec<i32>,
 }
 
 /// Room for so many numbers; what is in it does not matter.
@@ -66,26 +70,32 @@ pub(crate) fn expose_layer(
         Some(scatter) => dispatch!(level, _simd => scatter_tile((exposures, layer), tile, scatter, scratch, out)),
         None => {
             for (y, out) in tile.rows_with(0).zip(out.iter_mut()) {
-                copy_clean(exposures.layer_row(layer, y), tile.x as isize, out);
+                copy_believed(exposures.layer_row(layer, y), tile.x as isize, out);
             }
         }
     }
     let Some((halo, pull)) = halo.and_then(|halo| Some((halo, halo.pull(layer)?))) else { return };
-    let [field, lower] = &mut scratch.halo;
-    let (field, lower) = (room(field, tile.width), room(lower, tile.width));
+    scratch.cells.clear();
     for (y, out) in tile.rows_with(0).zip(out) {
-        halo.row(layer, y, tile.x, field, lower);
-        for (e, field) in out.iter_mut().zip(field.iter()) {
-            *e += pull * (field - *e);
-        }
+        let Some(rows) = halo.rows(layer, y, tile.x, tile.width, &mut scratch.cells) else { return };
+        dispatch!(level, _simd => pull_row(pull, rows, out));
     }
 }
 
 #[inline(always)]
-fn copy_clean(row: &[f32], start: isize, out: &mut [f32]) {
+fn copy_believed(row: &[f32], start: isize, out: &mut [f32]) {
     copy_padded(row, start, out);
     for e in out {
         *e = believed(*e);
+    }
+}
+
+/// Exposures go towards a field, given at the rows above and below.
+#[inline(always)]
+fn pull_row(pull: f32, (upper, lower, t): (&[f32], &[f32], f32), out: &mut [f32]) {
+    for ((e, upper), lower) in out.iter_mut().zip(upper).zip(lower) {
+        let field = upper + t * (lower - upper);
+        *e += pull * (field - *e);
     }
 }
 
@@ -98,37 +108,49 @@ fn scatter_tile(
     out: &mut [&mut [f32]],
 ) {
     let ([narrow_x, narrow_y], [wide_x, wide_y]) = (&scatter.narrow, &scatter.wide);
-    let (margin, width) = (scatter.rows(), tile.width);
+    let (margin, stride) = (scatter.rows(), tile.stride());
     let radius = narrow_x.len().max(wide_x.len());
-    let padded = room(&mut scratch.padded, width + 2 * radius);
-    let narrow = room(&mut scratch.narrow, width * (tile.rows + 2 * margin));
-    let wide = room(&mut scratch.wide, width * (tile.rows + 2 * margin));
-    let rows = narrow.chunks_exact_mut(width).zip(wide.chunks_exact_mut(width));
+    let padded = room(&mut scratch.padded, stride + 2 * radius);
+    let narrow = room(&mut scratch.narrow, stride * (tile.rows + 2 * margin));
+    let wide = room(&mut scratch.wide, stride * (tile.rows + 2 * margin));
+    let rows = narrow.chunks_exact_mut(stride).zip(wide.chunks_exact_mut(stride));
     for (y, (narrow, wide)) in tile.rows_with(margin).zip(rows) {
-        copy_clean(exposures.layer_row(layer, y), tile.x as isize - radius as isize, padded);
+        copy_believed(exposures.layer_row(layer, y), tile.x as isize - radius as isize, padded);
         along_row(narrow_x, &padded[radius - narrow_x.len()..], narrow);
         along_row(wide_x, &padded[radius - wide_x.len()..], wide);
     }
     let share = scatter.narrow_share;
     for (y, out) in out.iter_mut().enumerate() {
-        let row = |plane, distance: isize| row_of(plane, width, (y + margin) as isize + distance);
-        let (narrow, wide) = (|d| row(&*narrow, d), |d| row(&*wide, d));
         for (block, out) in out.chunks_mut(LANES).enumerate() {
-            let (start, len) = (block * LANES, out.len());
-            let narrow_sum = across_rows(narrow_y, narrow, start, len);
-            let wide_sum = across_rows(wide_y, wide, start, len);
-            let (narrow, wide) = (lanes(&narrow(0)[start..], len), lanes(&wide(0)[start..], len));
-            for i in 0..len {
-                let (narrow, wide) = (narrow[i] + narrow_sum[i], wide[i] + wide_sum[i]);
-                out[i] = wide + share * (narrow - wide);
+            let narrow = across_rows(narrow_y, narrow, stride, y + margin, block * LANES);
+            let mut mixed = across_rows(wide_y, wide, stride, y + margin, block * LANES);
+            for (wide, narrow) in mixed.iter_mut().zip(narrow) {
+                *wide += share * (narrow - *wide);
             }
+            store(out, &mixed);
         }
     }
 }
 
+/// A group, or as much of it as is in the picture.
 #[inline(always)]
-fn row_of<T>(plane: &[T], width: usize, y: isize) -> &[T] {
-    &plane[y as usize * width..][..width]
+fn load(from: &[f32]) -> [f32; LANES] {
+    if let Some(group) = from.first_chunk() {
+        return *group;
+    }
+    let mut group = [0.0; LANES];
+    group[..from.len()].copy_from_slice(from);
+    group
+}
+
+/// Writes a group, or as much of it as is in the picture.
+#[inline(always)]
+fn store(out: &mut [f32], group: &[f32; LANES]) {
+    if let Some(out) = out.first_chunk_mut() {
+        *out = *group;
+    } else {
+        out.copy_from_slice(&group[..out.len()]);
+    }
 }
 
 /// The amounts of a layer after adjacency; `cells` are its blurred means, where it is blurred in cells.
@@ -145,22 +167,12 @@ pub(crate) fn adjacency_layer(
         (Some(Adjacency { strength, blur: AdjacencyBlur::Pixels(taps) }), _) => {
             dispatch!(level, _simd => adjacency_tile((amounts, layer), tile, *strength, taps, scratch, out));
         }
-        (Some(Adjacency { strength, blur: AdjacencyBlur::Cells(axes, _) }), Some((cells, expansion))) => {
-            let [upper, lower] = &mut scratch.halo;
-            let (upper, lower) = (room(upper, tile.width), room(lower, tile.width));
-            let mut held = None;
+        (Some(Adjacency { strength, blur: AdjacencyBlur::Cells([_, axis], _) }), Some((cells, expansion))) => {
+            scratch.cells.clear();
             for (y, out) in tile.rows_with(0).zip(out) {
-                let (above, below, t) = axes[1].between(y);
-                if held != Some((above, below)) {
-                    expansion.expand(cells.row(above as isize), tile.x, upper);
-                    expansion.expand(cells.row(below as isize), tile.x, lower);
-                    held = Some((above, below));
-                }
-                let own = &amounts.layer_row(layer, y)[tile.x..];
-                for (((out, own), upper), lower) in out.iter_mut().zip(own).zip(upper.iter()).zip(lower.iter()) {
-                    let blurred = upper + t * (lower - upper);
-                    *out = (own + strength * (own - blurred)).max(0.0);
-                }
+                let rows = scratch.cells.at(cells, axis, expansion, y, tile.x, tile.width);
+                let own = &amounts.layer_row(layer, y)[tile.x..][..tile.width];
+                dispatch!(level, _simd => push_row(*strength, own, rows, out));
             }
         }
         _ => {
@@ -168,6 +180,15 @@ pub(crate) fn adjacency_layer(
                 out.copy_from_slice(&amounts.layer_row(layer, y)[tile.x..][..tile.width]);
             }
         }
+    }
+}
+
+/// Amounts go away from their blurred mean, given at the rows above and below.
+#[inline(always)]
+fn push_row(strength: f32, own: &[f32], (upper, lower, t): (&[f32], &[f32], f32), out: &mut [f32]) {
+    for (((out, own), upper), lower) in out.iter_mut().zip(own).zip(upper).zip(lower) {
+        let blurred = upper + t * (lower - upper);
+        *out = (own + strength * (own - blurred)).max(0.0);
     }
 }
 
@@ -180,23 +201,24 @@ fn adjacency_tile(
     scratch: &mut Scratch,
     out: &mut [&mut [f32]],
 ) {
-    let (margin, width) = (y.len(), tile.width);
-    let padded = room(&mut scratch.padded, width + 2 * x.len());
-    let blurred = room(&mut scratch.narrow, width * (tile.rows + 2 * margin));
-    for (row, blurred) in tile.rows_with(margin).zip(blurred.chunks_exact_mut(width)) {
-        copy_padded(amounts.layer_row(layer, row), tile.x as isize - x.len() as isize, padded);
+    let (margin, stride, radius) = (y.len(), tile.stride(), x.len());
+    let padded = room(&mut scratch.padded, stride + 2 * radius);
+    let blurred = room(&mut scratch.narrow, stride * (tile.rows + 2 * margin));
+    let own = room(&mut scratch.wide, stride * tile.rows);
+    for ((i, row), blurred) in tile.rows_with(margin).enumerate().zip(blurred.chunks_exact_mut(stride)) {
+        copy_padded(amounts.layer_row(layer, row), tile.x as isize - radius as isize, padded);
         along_row(x, padded, blurred);
+        if let Some(own) = i.checked_sub(margin).and_then(|i| own.get_mut(i * stride..(i + 1) * stride)) {
+            own.copy_from_slice(&padded[radius..][..stride]);
+        }
     }
     for (i, out) in out.iter_mut().enumerate() {
-        let own = &amounts.layer_row(layer, tile.y + i)[tile.x..];
-        let row = |distance: isize| row_of(&*blurred, width, (i + margin) as isize + distance);
         for (block, out) in out.chunks_mut(LANES).enumerate() {
-            let (start, len) = (block * LANES, out.len());
-            let sum = across_rows(y, row, start, len);
-            let (own, middle) = (lanes(&own[start..], len), lanes(&row(0)[start..], len));
-            for i in 0..len {
-                out[i] = (own[i] + strength * (own[i] - (middle[i] + sum[i]))).max(0.0);
+            let mut blurred = across_rows(y, blurred, stride, i + margin, block * LANES);
+            for (blurred, own) in blurred.iter_mut().zip(lanes(own, i * stride + block * LANES)) {
+                *blurred = (own + strength * (own - *blurred)).max(0.0);
             }
+            store(out, &blurred);
         }
     }
 }
@@ -212,57 +234,57 @@ pub(crate) fn add_grain(
     out: &mut [[&mut [f32]; 3]],
 ) {
     let [x, y] = grain.correlation();
-    let (margin, width) = (y.radius(), tile.width);
-    let wide = width + 2 * x.radius();
-    let key = grain.key(frame);
+    let (margin, stride) = (y.radius(), tile.stride());
     let start = [
         (tile.x as i64 + i64::from(offset[0]) - x.radius() as i64) as u32,
         (tile.y as i64 + i64::from(offset[1]) - margin as i64) as u32,
     ];
-    for layer in 0..3 {
-        room(&mut scratch.white[layer], wide);
-        room(&mut scratch.field[layer], width * (tile.rows + 2 * margin));
-    }
-    let (white, field) = (&mut scratch.white, &mut scratch.field);
-    dispatch!(level, _simd => fill_field(start, key, x.taps(), wide, width, tile.rows + 2 * margin, white, field));
-    let noise = room(&mut scratch.noise, width);
+    let wide = whole_lanes(stride + 2 * x.radius());
+    let white = scratch.white.each_mut().map(|white| room(white, wide));
+    let mut field = scratch.field.each_mut().map(|field| room(field, stride * (tile.rows + 2 * margin)));
+    dispatch!(level, _simd => fill_field(start, grain.key(frame), x.taps(), stride, white, &mut field));
     let scale = (1.0 / field_sigma(x, y)) as f32;
     for (i, rows) in out.iter_mut().enumerate() {
-        for (layer, out) in rows.iter_mut().enumerate() {
-            let field = &scratch.field[layer];
-            dispatch!(level, _simd => across(y.taps(), field, width, i + margin, noise));
-            let table = &grain.tables()[layer];
-            for (a, noise) in out.iter_mut().zip(noise.iter()) {
-                let [sigma, shift] = table.at(*a);
-                *a += sigma * (*noise as f32 * scale) + shift;
-            }
+        for ((out, field), table) in rows.iter_mut().zip(&field).zip(grain.tables()) {
+            dispatch!(level, _simd => grain_row(table, (y.taps(), field, stride), i + margin, scale, out));
         }
     }
 }
 
+/// Rows of noise, correlated along themselves.
 #[inline(always)]
-fn across(taps: &[i32], field: &[i32], width: usize, y: usize, out: &mut [i32]) {
-    correlate_rows(taps, |distance| row_of(field, width, y as isize + distance), out);
-}
-
-#[inline(always)]
-#[expect(clippy::too_many_arguments, reason = "one loop, compiled for each level of vector instructions")]
 fn fill_field(
     [x, y]: [u32; 2],
     key: NoiseKey,
     taps: &[i32],
-    wide: usize,
-    width: usize,
-    rows: usize,
-    white: &mut [Vec<i32>; 3],
-    field: &mut [Vec<i32>; 3],
+    stride: usize,
+    [red, green, blue]: [&mut [i32]; 3],
+    field: &mut [&mut [i32]; 3],
 ) {
-    for row in 0..rows {
-        let [red, green, blue] = white;
-        let numbers = [&mut red[..wide], &mut green[..wide], &mut blue[..wide]];
-        white_row(x, y.wrapping_add(row as u32), key, numbers);
-        for (white, field) in white.iter().zip(field.iter_mut()) {
-            correlate_row(taps, &white[..wide], &mut field[row * width..][..width]);
+    for row in 0..field[0].len() / stride {
+        white_row(x, y.wrapping_add(row as u32), key, [red, green, blue]);
+        for (white, field) in [&*red, &*green, &*blue].into_iter().zip(field.iter_mut()) {
+            correlate_row(taps, white, &mut field[row * stride..][..stride]);
         }
+    }
+}
+
+#[inline(always)]
+fn grain_row(
+    table: &StrengthTable,
+    (taps, field, stride): (&[i32], &[i32], usize),
+    y: usize,
+    scale: f32,
+    out: &mut [f32],
+) {
+    for (block, out) in out.chunks_mut(LANES).enumerate() {
+        let field = correlate_rows(taps, field, stride, y, block * LANES);
+        let mut noise = [0.0; LANES];
+        for (noise, field) in noise.iter_mut().zip(field) {
+            *noise = field as f32 * scale;
+        }
+        let mut amounts = load(out);
+        table.add_grain(&noise, &mut amounts);
+        store(out, &amounts);
     }
 }

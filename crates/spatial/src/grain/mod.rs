@@ -72,6 +72,7 @@ impl Default for GrainSettings {
 pub struct Grain {
     granularity: AmountGranularity,
     settings: GrainSettings,
+    pitch: Pitch,
     factor: f64,
     correlation: [Correlation; 2],
     /// For each layer, amounts in increasing order and the shift of the mean there.
@@ -94,7 +95,7 @@ impl Grain {
         let correlation = [Correlation::new(x, seen), Correlation::new(y, seen)];
         let shifts = PerLayer::all(vec![(0.0, 0.0)]);
         let tables = tables(&granularity, factor, &shifts);
-        Ok(Self { granularity, settings, factor, correlation, shifts, tables })
+        Ok(Self { granularity, settings, pitch, factor, correlation, shifts, tables })
     }
 
     /// The same grain, with amounts shifted so that along the grey scale its mean in display-linear light, and so large areas, stay as they
@@ -124,6 +125,12 @@ impl Grain {
     #[must_use]
     pub fn mean_shift(&self, amounts: PerLayer<f64>) -> PerLayer<f64> {
         self.shifts.as_ref().zip_map(amounts, |layer, amount| interpolated(layer, amount))
+    }
+
+    /// The size of the pixels that it was made for.
+    #[must_use]
+    pub fn pitch(&self) -> Pitch {
+        self.pitch
     }
 
     /// What it was made with.

@@ -1,9 +1,8 @@
 //! White noise that is a function of place, frame and seed: integers, the same on every machine and in every order.
 
 use super::correlation::Correlation;
+use crate::blur::LANES;
 
-/// Pixels hashed together: whole vectors of every machine.
-pub(crate) const LANES: usize = 16;
 /// Standard deviation of [`white`]: the root of 2048^2 * 8 + 4 (1024^2 - 1) / 12.
 pub(crate) const WHITE_SIGMA: f64 = 5_822.710_451_327_629;
 /// Bits that are dropped between the taps of the two axes, so that no sum leaves 32 bits: at worst 33791 times the taps' magnitudes
@@ -41,36 +40,31 @@ pub(crate) fn white(x: u32, y: u32, key: NoiseKey) -> [i32; 3] {
     [number(a, fine), number(b, fine >> 10), number(c, fine >> 20)]
 }
 
-/// [`white`] of the pixels from `x` on.
+/// [`white`] of the pixels from `x` on, in whole groups of [`LANES`].
 #[inline(always)]
 pub(crate) fn white_row(x: u32, y: u32, key: NoiseKey, [red, green, blue]: [&mut [i32]; 3]) {
-    let lanes = red.chunks_mut(LANES).zip(green.chunks_mut(LANES)).zip(blue.chunks_mut(LANES));
-    for (block, ((red, green), blue)) in lanes.enumerate() {
+    let (red, green, blue) =
+        (red.as_chunks_mut::<LANES>().0, green.as_chunks_mut::<LANES>().0, blue.as_chunks_mut::<LANES>().0);
+    for (block, ((red, green), blue)) in red.iter_mut().zip(green).zip(blue).enumerate() {
         let start = x.wrapping_add((block * LANES) as u32);
-        let mut numbers = [[0; LANES]; 3];
-        let [reds, greens, blues] = &mut numbers;
-        for (i, ((r, g), b)) in reds.iter_mut().zip(greens).zip(blues).enumerate() {
+        for (i, ((r, g), b)) in red.iter_mut().zip(green).zip(blue).enumerate() {
             [*r, *g, *b] = white(start.wrapping_add(i as u32), y, key);
         }
-        red.copy_from_slice(&numbers[0][..red.len()]);
-        green.copy_from_slice(&numbers[1][..green.len()]);
-        blue.copy_from_slice(&numbers[2][..blue.len()]);
     }
 }
 
-/// One row of white noise, correlated along it: `noise` begins `radius` pixels before `out`.
+/// One row of white noise, correlated along it: `noise` begins `radius` pixels before `out`, which is whole groups of [`LANES`], and ends as
+/// many after it.
 #[inline(always)]
 pub(crate) fn correlate_row(taps: &[i32], noise: &[i32], out: &mut [i32]) {
     let radius = taps.len() - 1;
-    let half = 1 << (DROPPED_BITS - 1);
-    for (block, out) in out.chunks_mut(LANES).enumerate() {
+    for (block, out) in out.as_chunks_mut::<LANES>().0.iter_mut().enumerate() {
         let start = block * LANES + radius;
-        let len = out.len();
-        let mut sum = [half; LANES];
-        add_lanes(&mut sum, taps[0], &noise[start..], len);
-        for (distance, &tap) in (1..).zip(&taps[1..]) {
-            add_lanes(&mut sum, tap, &noise[start - distance..], len);
-            add_lanes(&mut sum, tap, &noise[start + distance..], len);
+        let mut sum = [1 << (DROPPED_BITS - 1); LANES];
+        add_lanes(&mut sum, taps[0], noise, start);
+        for (i, &tap) in taps[1..].iter().enumerate() {
+            add_lanes(&mut sum, tap, noise, start - i - 1);
+            add_lanes(&mut sum, tap, noise, start + i + 1);
         }
         for (out, sum) in out.iter_mut().zip(sum) {
             *out = sum >> DROPPED_BITS;
@@ -78,33 +72,25 @@ pub(crate) fn correlate_row(taps: &[i32], noise: &[i32], out: &mut [i32]) {
     }
 }
 
-/// Rows of such sums, correlated across them; the middle one is the pixel's own.
+/// The group at `start` of row `y` of such rows, correlated across them.
 #[inline(always)]
-pub(crate) fn correlate_rows<'a>(taps: &[i32], row: impl Fn(isize) -> &'a [i32], out: &mut [i32]) {
-    let width = out.len();
-    for (block, out) in out.chunks_mut(LANES).enumerate() {
-        let start = block * LANES;
-        let len = out.len();
-        let mut sum = [0; LANES];
-        add_lanes(&mut sum, taps[0], &row(0)[start..width], len);
-        for (distance, &tap) in (1..).zip(&taps[1..]) {
-            add_lanes(&mut sum, tap, &row(-distance)[start..width], len);
-            add_lanes(&mut sum, tap, &row(distance)[start..width], len);
-        }
-        out.copy_from_slice(&sum[..len]);
+pub(crate) fn correlate_rows(taps: &[i32], rows: &[i32], stride: usize, y: usize, start: usize) -> [i32; LANES] {
+    let at = y * stride + start;
+    let mut sum = [0; LANES];
+    add_lanes(&mut sum, taps[0], rows, at);
+    for (i, &tap) in taps[1..].iter().enumerate() {
+        add_lanes(&mut sum, tap, rows, at - (i + 1) * stride);
+        add_lanes(&mut sum, tap, rows, at + (i + 1) * stride);
     }
+    sum
 }
 
 #[inline(always)]
-fn add_lanes(sum: &mut [i32; LANES], tap: i32, row: &[i32], len: usize) {
-    if let Some(row) = row.first_chunk::<LANES>() {
-        for i in 0..LANES {
-            sum[i] = sum[i].wrapping_add(tap.wrapping_mul(row[i]));
-        }
-    } else {
-        for (sum, number) in sum.iter_mut().zip(&row[..len]) {
-            *sum = sum.wrapping_add(tap.wrapping_mul(*number));
-        }
+fn add_lanes(sum: &mut [i32; LANES], tap: i32, numbers: &[i32], start: usize) {
+    const NONE: [i32; LANES] = [0; LANES];
+    let numbers = numbers.get(start..).and_then(|from| from.first_chunk()).unwrap_or(&NONE);
+    for i in 0..LANES {
+        sum[i] = sum[i].wrapping_add(tap.wrapping_mul(numbers[i]));
     }
 }
 

@@ -1,8 +1,9 @@
+use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
 
 use super::{Halation, PointSpread};
-use crate::blur::{LANES, copy_padded, lanes};
-use crate::cells::{CellAxis, CellRows, CellSums, Expansion, cell_taps};
+use crate::blur::{LANES, add_differences, copy_padded, lanes, whole_lanes};
+use crate::cells::{CellAxis, CellRows, CellSums, ExpandedRows, Expansion};
 use crate::error::{Error, ErrorKind};
 use crate::frame::Frame;
 use crate::planes::{Planes, believed};
@@ -45,6 +46,7 @@ struct LayerCells {
 /// The light that returns everywhere in a picture, in cells.
 #[derive(Debug, Clone)]
 pub struct HaloField {
+    frame: Frame,
     axes: [CellAxis; 2],
     expansion: Expansion,
     /// For each layer that halation reaches: by how much exposure goes towards the field, and the field, a mean of exposures.
@@ -131,34 +133,42 @@ impl HalationCells {
         layers.par_iter_mut().zip(&self.layers).zip(pull).for_each(|((field, layer), pull)| {
             *field = layer.as_ref().map(|layer| (pull as f32, kernel.field(&layer.cells)));
         });
-        Ok(HaloField { axes: self.axes, expansion: Expansion::new(&self.axes[0]), layers })
+        Ok(HaloField { frame: self.frame, axes: self.axes, expansion: Expansion::new(&self.axes[0]), layers })
     }
 }
 
 impl HaloField {
+    /// Whether it is that of a picture of this size and place; its number does not matter.
+    pub(crate) fn is_of(&self, frame: &Frame) -> bool {
+        self.frame.numbered(0) == frame.numbered(0)
+    }
+
     /// For a layer that halation reaches: by how much its exposure goes towards the field.
     pub(crate) fn pull(&self, layer: usize) -> Option<f32> {
         self.layers[layer].as_ref().map(|(pull, _)| *pull)
     }
 
-    /// The field of a layer at the pixels of a row from `start`; `scratch` is as long as `out`.
-    pub(crate) fn row(&self, layer: usize, y: usize, start: usize, out: &mut [f32], scratch: &mut [f32]) {
-        let Some((_, field)) = &self.layers[layer] else { return };
-        let (upper, lower, t) = self.axes[1].between(y);
-        self.expansion.expand(field.row(upper as isize), start, out);
-        if t > 0.0 {
-            self.expansion.expand(field.row(lower as isize), start, scratch);
-            for (out, lower) in out.iter_mut().zip(scratch.iter()) {
-                *out += t * (lower - *out);
-            }
-        }
+    /// The field of a layer at row `y`, `width` pixels from `start`: its values at the rows of cells above and below, and how far towards the
+    /// second the row lies.
+    pub(crate) fn rows<'a>(
+        &self,
+        layer: usize,
+        y: usize,
+        start: usize,
+        width: usize,
+        rows: &'a mut ExpandedRows,
+    ) -> Option<(&'a [f32], &'a [f32], f32)> {
+        let (_, field) = self.layers[layer].as_ref()?;
+        Some(rows.at(field, &self.axes[1], &self.expansion, y, start, width))
     }
 }
 
 /// The profile in cells: positive Gaussians, and the weights of what is lost inside the ring.
 struct HaloKernel {
-    /// Share of each Gaussian in what returns, and its taps along both axes.
-    gaussians: Vec<(f32, [Vec<f32>; 2])>,
+    level: Level,
+    axes: [CellAxis; 2],
+    /// Share of each Gaussian in what returns, and its standard deviation in pixels.
+    gaussians: Vec<(f32, [f64; 2])>,
     /// For each row of cells at distance 0, 1, and so on: weight of the cell in the middle, and of those beside it.
     hole: Vec<(f32, Vec<f32>)>,
 }
@@ -166,22 +176,20 @@ struct HaloKernel {
 impl HaloKernel {
     fn new(halation: &Halation, axes: [CellAxis; 2], pitch_um: [f64; 2]) -> Self {
         let returned = halation.returned;
-        let gaussians = halation.gaussians.iter().map(|(weight, sigma_um)| {
-            let taps = |i: usize| cell_taps(&axes[i], sigma_um / pitch_um[i]).rounded();
-            ((weight / returned) as f32, [taps(0), taps(1)])
-        });
+        let gaussians = halation.gaussians.iter();
+        let gaussians = gaussians.map(|(w, um)| ((w / returned) as f32, pitch_um.map(|pitch| um / pitch))).collect();
         let cell = [0, 1].map(|i| axes[i].size() as f64 * pitch_um[i]);
         let lost = halation.spread.smooth_returned() - returned;
-        Self { gaussians: gaussians.collect(), hole: hole(&halation.spread, cell, lost / returned) }
+        Self { level: Level::new(), axes, gaussians, hole: hole(&halation.spread, cell, lost / returned) }
     }
 
     /// Means of exposure weighted by what returns.
     fn field(&self, cells: &CellRows) -> CellRows {
-        let all = cells.rows.clone();
         let mut field = self.without_hole(cells);
-        let mut gain = CellRows::new(cells.width, all.clone());
-        for (share, [x, y]) in &self.gaussians {
-            let blurred = cells.blurred(x, y, all.clone());
+        let mut gain = CellRows::new(cells.width, cells.rows.clone());
+        let [x, y] = &self.axes;
+        for (share, sigma) in &self.gaussians {
+            let blurred = cells.blurred_by(self.level, [x, y], *sigma);
             for ((gain, blurred), own) in gain.means.iter_mut().zip(&blurred.means).zip(&cells.means) {
                 *gain += share * (blurred - own);
             }
@@ -196,44 +204,38 @@ impl HaloKernel {
     /// Each cell's own mean less what is lost of its neighbours' light.
     fn without_hole(&self, cells: &CellRows) -> CellRows {
         let reach = self.hole.iter().map(|(_, side)| side.len()).max().unwrap_or(0);
-        let rows = self.hole.len().saturating_sub(1) as isize;
         let mut field = CellRows::new(cells.width, cells.rows.clone());
-        let stride = cells.width + 2 * reach;
+        let stride = whole_lanes(cells.width) + 2 * reach;
         let mut padded = vec![0.0; stride * cells.rows.len()];
-        for (row, padded) in cells.rows.clone().zip(padded.chunks_mut(stride)) {
+        for (row, padded) in cells.rows.clone().zip(padded.chunks_exact_mut(stride)) {
             copy_padded(cells.row(row as isize), -(reach as isize), padded);
         }
-        let last = cells.rows.len() as isize - 1;
-        let row_of = |y: isize| {
-            let y = y.clamp(0, last) as usize;
-            &padded[y * stride..(y + 1) * stride]
-        };
         field.means.par_chunks_mut(cells.width).enumerate().for_each(|(y, out)| {
-            for (block, out) in out.chunks_mut(LANES).enumerate() {
-                let (start, len) = (block * LANES + reach, out.len());
-                let own = lanes(&row_of(y as isize)[start..], len);
-                let mut sum = [0.0; LANES];
-                for dy in -rows..=rows {
-                    let (centre, side) = &self.hole[dy.unsigned_abs()];
-                    let row = row_of(y as isize + dy);
-                    let middle = lanes(&row[start..], len);
-                    for i in 0..LANES {
-                        sum[i] += centre * (middle[i] - own[i]);
-                    }
-                    for (distance, tap) in (1..).zip(side) {
-                        let (before, after) =
-                            (lanes(&row[start - distance..], len), lanes(&row[start + distance..], len));
-                        for i in 0..LANES {
-                            sum[i] += tap * ((before[i] + after[i]) - (own[i] + own[i]));
-                        }
-                    }
-                }
-                for i in 0..len {
-                    out[i] = own[i] - sum[i];
-                }
-            }
+            dispatch!(self.level, _simd => self.hole_row(&padded, stride, reach, y, out));
         });
         field
+    }
+
+    #[inline(always)]
+    fn hole_row(&self, padded: &[f32], stride: usize, reach: usize, y: usize, out: &mut [f32]) {
+        let (rows, last) = (self.hole.len() - 1, padded.len() / stride - 1);
+        for (block, out) in out.chunks_mut(LANES).enumerate() {
+            let start = block * LANES + reach;
+            let own = lanes(padded, y * stride + start);
+            let mut lost = [0.0; LANES];
+            for i in 0..=2 * rows {
+                let (centre, side) = &self.hole[i.abs_diff(rows)];
+                let at = (y + i).saturating_sub(rows).min(last) * stride + start;
+                // The middle cell is its own mirror image.
+                add_differences(&mut lost, 0.5 * centre, lanes(padded, at), lanes(padded, at), own);
+                for (k, tap) in side.iter().enumerate() {
+                    add_differences(&mut lost, *tap, lanes(padded, at - k - 1), lanes(padded, at + k + 1), own);
+                }
+            }
+            for ((out, own), lost) in out.iter_mut().zip(own).zip(lost) {
+                *out = own - lost;
+            }
+        }
     }
 }
 

@@ -35,6 +35,7 @@ fn stage(frame: Frame) -> SpatialStage {
     SpatialStage::new(frame)
         .with_sharpness(&sharpness)
         .with_grain(grain)
+        .unwrap()
         .with_halation(halation(Antihalation::Density(0.3)))
 }
 
@@ -52,7 +53,7 @@ fn bands_and_threads_give_the_same_bytes() {
         let frame = Frame::new(SIZE, FilmFormat::Super35.pitch(width, 1.0).unwrap()).unwrap().at([301, 77]);
         let stage = stage(frame);
         let whole = stage.amounts(&exposures(0..SIZE[1]), Some(&halo(&stage, 1000)), 0..SIZE[1], &curve).unwrap();
-        for (band, threads) in [(SIZE[1], 1), (SIZE[1], 5), (1, 2), (37, 1), (64, 3), (200, 2)] {
+        for (band, threads) in [(SIZE[1], 1), (SIZE[1], 5), (37, 2), (64, 3), (200, 2)] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| {
                 let halo = halo(&stage, band);
@@ -69,6 +70,11 @@ fn bands_and_threads_give_the_same_bytes() {
                 }
             });
         }
+        for y in [0, 100, SIZE[1] - 1] {
+            let needed = exposures(stage.exposure_rows(y..y + 1));
+            let alone = stage.amounts(&needed, Some(&halo(&stage, 64)), y..y + 1, &curve).unwrap();
+            assert!(alone.row(y) == whole.row(y), "{width}: row {y} alone");
+        }
     }
 }
 
@@ -81,7 +87,11 @@ fn the_grain_of_a_crop_is_the_crop_of_the_grain() {
     let field = |size: [usize; 2], offset| {
         let frame = Frame::new(size, pitch).unwrap().at(offset).numbered(11);
         let exposures = Planes::new(size[0], 0..size[1]).unwrap();
-        SpatialStage::new(frame).with_grain(grain.clone()).amounts(&exposures, None, 0..size[1], &grey).unwrap()
+        SpatialStage::new(frame)
+            .with_grain(grain.clone())
+            .unwrap()
+            .amounts(&exposures, None, 0..size[1], &grey)
+            .unwrap()
     };
     let whole = field([1100, 150], [0, 0]);
     let crop = field([600, 70], [333, 41]);
@@ -110,4 +120,29 @@ fn missing_rows_are_refused() {
     assert_eq!(plain.exposure_rows(7..8), 7..8);
     let same = plain.amounts(&exposures(7..8), None, 7..8, &curve).unwrap();
     assert_eq!(same.row(7)[1][5], curve(std::array::from_fn(|k| exposures(7..8).row(7)[k][5]))[1]);
+}
+
+#[test]
+fn what_was_made_for_another_picture_is_refused() {
+    let pitch = Pitch::new(12.158, 12.158).unwrap();
+    let frame = Frame::new(SIZE, pitch).unwrap();
+    let halo = halo(&stage(frame), 64);
+    let message = |other: Frame| {
+        let rows = 0..other.height();
+        let exposures = Planes::new(other.width(), rows.clone()).unwrap();
+        stage(other).amounts(&exposures, Some(&halo), rows, &curve).unwrap_err().to_string()
+    };
+    let others = [
+        frame.at([1, 0]),
+        Frame::new([SIZE[0] + 1, SIZE[1]], pitch).unwrap(),
+        Frame::new(SIZE, Pitch::new(6.0, 6.0).unwrap()).unwrap(),
+    ];
+    assert!(others.map(message).iter().all(|message| message.starts_with("halo: found that of another picture")));
+    // The next of a sequence has the same cells: whose exposures they hold is the caller's affair.
+    assert!(stage(frame.numbered(1)).amounts(&exposures(0..SIZE[1]), Some(&halo), 0..1, &curve).is_ok());
+    let film = stock("kodak-5207");
+    let grain = Grain::new(AmountGranularity::of_stock(&film).unwrap(), pitch, GrainSettings::default()).unwrap();
+    let finer = SpatialStage::new(Frame::new(SIZE, Pitch::new(6.0, 6.0).unwrap()).unwrap());
+    let message = finer.with_grain(grain).unwrap_err().to_string();
+    assert_eq!(message, "grain: found pixels of 12.158 by 12.158 um, expected pixels of 6 by 6 um");
 }

@@ -67,7 +67,11 @@ fn all_seven_figures_are_scatter_of_three_layers() {
 fn field(grain: &Grain, frame: Frame, amounts: [f32; 3]) -> Planes {
     let rows = 0..frame.height();
     let exposures = Planes::new(frame.width(), rows.clone()).unwrap();
-    SpatialStage::new(frame).with_grain(grain.clone()).amounts(&exposures, None, rows, &|_: [f32; 3]| amounts).unwrap()
+    SpatialStage::new(frame)
+        .with_grain(grain.clone())
+        .unwrap()
+        .amounts(&exposures, None, rows, &|_: [f32; 3]| amounts)
+        .unwrap()
 }
 
 #[test]

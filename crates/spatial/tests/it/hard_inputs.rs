@@ -12,6 +12,7 @@ fn stage(frame: Frame, id: &str) -> SpatialStage {
     SpatialStage::new(frame)
         .with_sharpness(&Sharpness::of_stock(&film).unwrap())
         .with_grain(grain)
+        .unwrap()
         .with_halation(halation(Antihalation::None))
 }
 

@@ -85,7 +85,7 @@ fn largest(id: &str, greens: &[f64], diameters: &[f64]) -> Vec<f64> {
         let slope = reader.density_and_slope(amounts).1;
         let amounts = amounts.map(|a| a.0 as f32).to_array();
         let exposures = Planes::new(SIDE, 0..SIDE).unwrap();
-        let stage = SpatialStage::new(frame).with_grain(grain.clone());
+        let stage = SpatialStage::new(frame).with_grain(grain.clone()).unwrap();
         let planes = stage.amounts(&exposures, None, 0..SIDE, &|_: [f32; 3]| amounts).unwrap();
         for (largest, diameter) in largest.iter_mut().zip(diameters) {
             let found = read(&planes, amounts, slope, *diameter);
