@@ -5,6 +5,7 @@
 //! - [`Halation`]: light that returns from the back of the base
 //! - [`Grain`]: from the sheet's granularity ([`AmountGranularity`])
 //! - [`SpatialStage`]: applies them to planes of exposures, in bands of rows; [`Development`] and [`Finish`] are what comes between and after
+//! - [`grain_decision`], [`SharpnessProbe`], [`HalationProbe`]: whether an effect can be seen in a picture, and why ([`Decision`])
 //! - [`CONSTANTS`]: every number that is on no sheet of the film, with its origin
 //!
 //! ```
@@ -37,6 +38,7 @@
 //! Colour: exposures and amounts come from and go to other crates. Print films' own sharpness and grain, lenses, dust, weave. Keys in square
 //! brackets are resolved in REFERENCES.md at the top of the repository.
 
+mod auto;
 mod blur;
 mod cells;
 mod chain;
@@ -54,6 +56,7 @@ mod stage;
 mod strip;
 mod taps;
 
+pub use auto::{Decision, Effect, HalationProbe, SharpnessProbe, Verdict, grain_decision};
 pub use chain::{Development, Finish};
 pub use constant::{
     ANTIHALATION_DENSITY, CLOUD_RADIUS, CONSTANTS, Constant, ConstantOrigin, POLYESTER_INDEX, POLYESTER_THICKNESS,

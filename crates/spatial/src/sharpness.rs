@@ -107,6 +107,18 @@ impl LayerBlurs {
     }
 }
 
+impl LayerBlurs {
+    /// The same on the film for a part of the picture: cells are counted from the frame's origin.
+    pub(crate) fn for_part(&self, part: &Frame) -> Self {
+        let mut blurs = self.clone();
+        if let Some(Adjacency { blur: AdjacencyBlur::Cells([x, y], _), .. }) = &mut blurs.adjacency {
+            *x = CellAxis::new(x.size(), part.offset()[0], part.width());
+            *y = CellAxis::new(y.size(), part.offset()[1], part.height());
+        }
+        blurs
+    }
+}
+
 impl AdjacencyBlur {
     fn new(um: f64, frame: &Frame) -> Self {
         let sigma = [um / frame.pitch().x_um(), um / frame.pitch().y_um()];
@@ -129,8 +141,8 @@ impl AdjacencyBlur {
 }
 
 impl Scatter {
-    /// Rows that a row depends on, on either side.
-    pub(crate) fn rows(&self) -> usize {
-        self.narrow[1].len().max(self.wide[1].len())
+    /// Pixels that a pixel depends on, on either side along an axis.
+    pub(crate) fn reach(&self, axis: usize) -> usize {
+        self.narrow[axis].len().max(self.wide[axis].len())
     }
 }

@@ -11,7 +11,7 @@ use crate::frame::Frame;
 use crate::grain::Grain;
 use crate::halation::{Halation, HalationCells, HaloField};
 use crate::planes::Planes;
-use crate::sharpness::{AdjacencyBlur, LayerBlurs, Scatter, Sharpness};
+use crate::sharpness::{AdjacencyBlur, LayerBlurs, Sharpness};
 use crate::strip::{Scratch, TILE, Tile, add_grain, adjacency_layer, expose_layer};
 
 /// Rows of a strip, which one thread works on.
@@ -124,6 +124,18 @@ impl SpatialStage {
         &self.frame
     }
 
+    /// How far light scatters, in pixels along both axes.
+    pub(crate) fn scatter_reach(&self) -> [usize; 2] {
+        let reach = |axis: usize| self.layers().filter_map(|l| l.scatter.as_ref()).map(|s| s.reach(axis)).max();
+        [0, 1].map(|axis| reach(axis).unwrap_or(0))
+    }
+
+    /// Sharpness alone, for a part of the picture.
+    pub(crate) fn for_part(&self, part: Frame) -> Self {
+        let blurs = self.blurs.as_ref().map(|blurs| blurs.each_ref().map(|layer| layer.for_part(&part)));
+        Self { blurs, ..Self::new(part) }
+    }
+
     /// What must be fed with all exposures before [`SpatialStage::amounts`]; `None` without halation.
     ///
     /// # Errors
@@ -135,8 +147,7 @@ impl SpatialStage {
     /// The rows of exposures that the amounts of these rows depend on.
     #[must_use]
     pub fn exposure_rows(&self, rows: Range<usize>) -> Range<usize> {
-        let scatter = self.layers().filter_map(|layer| layer.scatter.as_ref()).map(Scatter::rows).max().unwrap_or(0);
-        self.widened(self.amount_rows(rows), scatter)
+        self.widened(self.amount_rows(rows), self.scatter_reach()[1])
     }
 
     /// The rows of developed amounts that the amounts of these rows depend on.

@@ -108,7 +108,7 @@ fn scatter_tile(
     out: &mut [&mut [f32]],
 ) {
     let ([narrow_x, narrow_y], [wide_x, wide_y]) = (&scatter.narrow, &scatter.wide);
-    let (margin, stride) = (scatter.rows(), tile.stride());
+    let (margin, stride) = (scatter.reach(1), tile.stride());
     let radius = narrow_x.len().max(wide_x.len());
     let padded = room(&mut scratch.padded, stride + 2 * radius);
     let narrow = room(&mut scratch.narrow, stride * (tile.rows + 2 * margin));

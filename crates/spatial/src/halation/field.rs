@@ -81,6 +81,11 @@ impl HalationCells {
         Ok(Self { halation: halation.clone(), frame: *frame, axes: [x, y], next_row: 0, layers })
     }
 
+    /// Cells along both axes.
+    pub(crate) fn axes(&self) -> [CellAxis; 2] {
+        self.axes
+    }
+
     /// Adds the next rows of the picture's exposures, from top to bottom, each row once.
     ///
     /// # Errors
@@ -141,6 +146,14 @@ impl HaloField {
     /// Whether it is that of a picture of this size and place; its number does not matter.
     pub(crate) fn is_of(&self, frame: &Frame) -> bool {
         self.frame.numbered(0) == frame.numbered(0)
+    }
+
+    /// What halation makes of an exposure of a layer in a cell.
+    pub(crate) fn exposed_in_cell(&self, layer: usize, [x, y]: [usize; 2], exposure: f32) -> f32 {
+        match &self.layers[layer] {
+            Some((pull, field)) => exposure + pull * (field.row(y as isize)[x] - exposure),
+            None => exposure,
+        }
     }
 
     /// For a layer that halation reaches: by how much its exposure goes towards the field.

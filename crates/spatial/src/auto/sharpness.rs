@@ -1,0 +1,157 @@
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::{Decision, Effect};
+use crate::chain::{Development, Finish};
+use crate::error::{Error, ErrorKind};
+use crate::frame::Frame;
+use crate::planes::Planes;
+use crate::sharpness::Sharpness;
+use crate::stage::SpatialStage;
+
+/// One block of so many pixels' side is looked at for each square of so many.
+const BLOCK: usize = 8;
+const SQUARE: usize = 64;
+/// What is far away changes little and costs much: pixels about a block beyond those that light scatters from.
+const MARGIN: usize = 12;
+/// The difference that a hundredth of the pixels must reach.
+const LEAST_DIFFERENCE: f64 = 0.35;
+
+/// Looks whether sharpness can be seen: through the whole chain, with and without it, on one block of 8 by 8 pixels in every 64 by 64.
+///
+/// It is left out where 99 of 100 pixels change by less than 0.35 dE.
+///
+/// ```
+/// # use onelight_film::{SheetText, Stock};
+/// # use onelight_spatial::{FilmFormat, Frame, Planes, Sharpness, SharpnessProbe, Verdict};
+/// # struct Screen;
+/// # impl onelight_spatial::Finish for Screen {
+/// #     fn display_linear(&self, amounts: [f64; 3]) -> [f64; 3] { amounts.map(|a| 10f64.powf(-a)) }
+/// #     fn lab(&self, display_linear: [f64; 3]) -> [f64; 3] { display_linear.map(|v| 116.0 * v.cbrt() - 16.0) }
+/// #     fn difference(&self, a: [f64; 3], b: [f64; 3]) -> f64 { (self.lab(a)[0] - self.lab(b)[0]).abs() }
+/// # }
+/// # let f = onelight_stocks::find("kodak-5207").ok_or("no such stock")?;
+/// # let stock = Stock::parse(&SheetText { id: f.id, stock_toml: f.stock_toml, sensitivity_csv: f.sensitivity_csv,
+/// #     characteristic_csv: f.characteristic_csv, dye_density_csv: f.dye_density_csv })?
+/// #     .with_figures(f.mtf_csv, f.granularity_csv)?;
+/// let frame = Frame::new([256, 128], FilmFormat::Super35.pitch(2048, 1.0)?)?;
+/// let mut probe = SharpnessProbe::new(&Sharpness::of_stock(&stock)?, &frame);
+/// for rows in probe.exposure_rows() {
+///     probe.add(&Planes::new(256, rows)?, &|e: [f32; 3]| e, &Screen)?;
+/// }
+/// assert_eq!(probe.finish().verdict(), Verdict::NotVisible, "a black frame");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct SharpnessProbe {
+    stage: SpatialStage,
+    margin: [usize; 2],
+    differences: Vec<f64>,
+}
+
+impl SharpnessProbe {
+    /// For a picture.
+    #[must_use]
+    pub fn new(sharpness: &Sharpness, frame: &Frame) -> Self {
+        let stage = SpatialStage::new(*frame).with_sharpness(sharpness);
+        let margin = stage.scatter_reach().map(|reach| reach + MARGIN);
+        Self { stage, margin, differences: Vec::new() }
+    }
+
+    /// The rows of exposures of each row of blocks, from top to bottom: what [`SharpnessProbe::add`] wants.
+    #[must_use]
+    pub fn exposure_rows(&self) -> Vec<Range<usize>> {
+        let frame = self.stage.frame();
+        let widened = |rows: Range<usize>| within(rows, self.margin[1], frame.height());
+        blocks(frame.offset()[1], frame.height()).into_iter().map(widened).collect()
+    }
+
+    /// Looks at one row of blocks.
+    ///
+    /// # Errors
+    /// If these are not the exposures of a row of blocks.
+    pub fn add(
+        &mut self,
+        exposures: &Planes,
+        development: &impl Development,
+        finish: &impl Finish,
+    ) -> Result<(), Error> {
+        let frame = *self.stage.frame();
+        let is_row = |rows: &Range<usize>| within(rows.clone(), self.margin[1], frame.height()) == exposures.rows();
+        let rows = blocks(frame.offset()[1], frame.height()).into_iter().find(is_row);
+        let Some(rows) = rows.filter(|_| exposures.width() == frame.width()) else {
+            let found = format!("rows {} to {}", exposures.rows().start, exposures.rows().end);
+            let expected = "those of one row of blocks".to_owned();
+            return Err(ErrorKind::Planes { what: "exposures to look at", found, expected }.into());
+        };
+        let columns = blocks(frame.offset()[0], frame.width());
+        let look = |columns: &Range<usize>| self.block(exposures, columns.clone(), rows.clone(), development, finish);
+        let found: Vec<Vec<f64>> = columns.par_iter().map(look).collect::<Result<_, Error>>()?;
+        self.differences.extend(found.into_iter().flatten());
+        Ok(())
+    }
+
+    /// The decision.
+    #[must_use]
+    pub fn finish(mut self) -> Decision {
+        self.differences.sort_by(f64::total_cmp);
+        let rank = (0.99 * self.differences.len() as f64) as usize;
+        let p99 = self.differences.get(rank).copied().unwrap_or(0.0);
+        let measured = format!("{p99:.2} dE for 1 pixel in 100");
+        Decision::new(Effect::Sharpness, p99 >= LEAST_DIFFERENCE, &measured, self.stage.frame())
+    }
+
+    /// The differences of a block's pixels.
+    fn block(
+        &self,
+        exposures: &Planes,
+        columns: Range<usize>,
+        rows: Range<usize>,
+        development: &impl Development,
+        finish: &impl Finish,
+    ) -> Result<Vec<f64>, Error> {
+        let frame = self.stage.frame();
+        let across = within(columns.clone(), self.margin[0], frame.width());
+        let down = exposures.rows();
+        let [x, y] = frame.offset();
+        let window = Frame::new([across.len(), down.len()], frame.pitch())?
+            .at([x.wrapping_add(across.start as i32), y.wrapping_add(down.start as i32)]);
+        let mut part = Planes::new(across.len(), 0..down.len())?;
+        for row in 0..down.len() {
+            for (part, whole) in part.row_mut(row).into_iter().zip(exposures.row(row + down.start)) {
+                part.copy_from_slice(&whole[across.clone()]);
+            }
+        }
+        let [with, without] = [self.stage.for_part(window), SpatialStage::new(window)];
+        let inside = rows.start - down.start..rows.end - down.start;
+        let with = with.amounts(&part, None, inside.clone(), development)?;
+        let without = without.amounts(&part, None, inside.clone(), development)?;
+        let pixel = |planes: &Planes, x: usize, y: usize| planes.row(y).map(|layer| f64::from(layer[x]));
+        let mut differences = Vec::with_capacity(columns.len() * inside.len());
+        for y in inside {
+            for x in columns.clone().map(|x| x - across.start) {
+                let [with, without] = [&with, &without].map(|planes| finish.display_linear(pixel(planes, x, y)));
+                differences.push(finish.difference(with, without));
+            }
+        }
+        Ok(differences)
+    }
+}
+
+/// Where the blocks of one axis lie in a picture, counted from the frame's origin; one in the middle of a picture that has none.
+fn blocks(offset: i32, pixels: usize) -> Vec<Range<usize>> {
+    let first = (SQUARE as i64 - BLOCK as i64) / 2 - i64::from(offset).rem_euclid(SQUARE as i64);
+    let starts = (0..).map(|i| first + i * SQUARE as i64).take_while(|start| start + BLOCK as i64 <= pixels as i64);
+    let found: Vec<Range<usize>> =
+        starts.filter(|start| *start >= 0).map(|start| start as usize..start as usize + BLOCK).collect();
+    if found.is_empty() {
+        let start = pixels.saturating_sub(BLOCK) / 2;
+        return std::iter::once(start..(start + BLOCK).min(pixels)).collect();
+    }
+    found
+}
+
+fn within(range: Range<usize>, margin: usize, count: usize) -> Range<usize> {
+    range.start.saturating_sub(margin)..(range.end + margin).min(count)
+}
