@@ -3,7 +3,7 @@
 use onelight::film::{Density, LogExposure, PerLayer};
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Basis, DisplayDifference, MID_GREY, Reconstruction, RgbSpace, SpectralShape, color_checker};
-use onelight::{Aim, FilmProcess, Reference, Stock, StockKind, stock, stock_ids};
+use onelight::{Aim, FilmProcess, Image, Reference, Stock, StockKind, stock, stock_ids};
 use serde::Serialize;
 
 use crate::error::Result;
@@ -33,12 +33,12 @@ pub struct SheetFidelity {
     pub derived: Vec<&'static str>,
 }
 
-/// Every camera film: negatives on 2383, reversal film as it is.
+/// Every camera film in colour: negatives on 2383, reversal and instant film as it is.
 pub fn all() -> Result<Vec<SheetFidelity>> {
     let mut found = Vec::new();
     for id in stock_ids() {
         let film = stock(id)?;
-        if film.kind() != StockKind::Print {
+        if film.kind().is_camera_film() && film.image() == Image::Dye {
             found.push(of(&film)?);
         }
     }
@@ -74,7 +74,7 @@ fn curves(film: &Stock, reference: &Reference) -> Result<f64> {
             let clear = read(PerLayer::default());
             film.characteristic().zip_map(clear, |curve, clear| clear - curve.d_min().0)
         }
-        StockKind::Reversal | StockKind::Print => PerLayer::all(0.0),
+        _ => PerLayer::all(0.0),
     };
     let mut largest = 0f64;
     for step in -40..=40 {

@@ -60,13 +60,12 @@ fn curve(curve: &CharacteristicCurve) {
 
 /// The film on its way to the screen, with built-in films beside it.
 fn on_screen(stock: &Stock) -> Result<(), onelight::Error> {
-    static NEGATIVE: LazyLock<Option<Stock>> = LazyLock::new(|| onelight::stock("kodak-5207").ok());
-    static PRINT: LazyLock<Option<Stock>> = LazyLock::new(|| onelight::stock("kodak-2383").ok());
+    static PARTNERS: LazyLock<Vec<Stock>> = LazyLock::new(|| {
+        let ids = ["kodak-5207", "kodak-2383", "fuji-velvia-50", "kodak-radiance-iii", "kodak-5222", "kodak-2302"];
+        ids.iter().filter_map(|id| onelight::stock(id).ok()).collect()
+    });
 
-    let grey = match stock.kind() {
-        StockKind::Print => print_mid_grey(stock)?,
-        StockKind::Negative | StockKind::Reversal => PerLayer::all(stock.mid_grey()?),
-    };
+    let grey = own_grey(stock)?;
     let amounts = match DyeModel::Wedge.amounts(stock, grey) {
         Ok(amounts) => amounts,
         Err(error) => {
@@ -77,7 +76,7 @@ fn on_screen(stock: &Stock) -> Result<(), onelight::Error> {
     let held = amounts.as_ref().zip_map(grey, AmountCurve::amount);
     assert!(held.to_array().iter().all(|amount| amount.0.is_finite()), "{held:?}");
 
-    if stock.kind() != StockKind::Print {
+    if stock.kind().is_camera_film() {
         let basis = Basis::new(Reconstruction::Smooth)?;
         for matching in [Matching::Grey, Matching::Absolute] {
             match ExposureMatrix::new(stock, &basis, matching, grey) {
@@ -90,21 +89,26 @@ fn on_screen(stock: &Stock) -> Result<(), onelight::Error> {
             }
         }
     }
-    match (stock.kind(), NEGATIVE.as_ref(), PRINT.as_ref()) {
-        (StockKind::Negative, _, Some(print)) => printed(stock, print, held),
-        (StockKind::Print, Some(negative), _) => {
-            let curves = DyeModel::Wedge.amounts(negative, PerLayer::all(negative.mid_grey()?))?;
-            let grey = PerLayer::all(negative.mid_grey()?);
-            printed(negative, stock, curves.as_ref().zip_map(grey, AmountCurve::amount))
-        }
-        _ => {
-            let projection = projection(stock)?;
-            let density = EquivalentNeutralDensity::default();
-            let target = reversal_target(Aim::Neutral, density, stock, grey, amounts.as_ref(), &projection)?;
-            shown(&projection, amounts.as_ref().zip_map(target, AmountCurve::amount));
-            Ok(())
-        }
+    if matches!(stock.kind(), StockKind::Reversal | StockKind::Instant) {
+        let projection = projection(stock)?;
+        let density = EquivalentNeutralDensity::default();
+        let target = reversal_target(Aim::Neutral, density, stock, grey, amounts.as_ref(), &projection)?;
+        shown(&projection, amounts.as_ref().zip_map(target, AmountCurve::amount));
     }
+    if let Some(print) = PARTNERS.iter().find(|print| stock.is_printed_on(print)) {
+        printed(stock, print, held)?;
+    }
+    if let Some(negative) = PARTNERS.iter().find(|negative| negative.is_printed_on(stock)) {
+        let grey = own_grey(negative)?;
+        let curves = DyeModel::Wedge.amounts(negative, grey)?;
+        printed(negative, stock, curves.as_ref().zip_map(grey, AmountCurve::amount))?;
+    }
+    Ok(())
+}
+
+/// Where a grey card lies on the curves.
+fn own_grey(stock: &Stock) -> Result<PerLayer<LogExposure>, onelight::Error> {
+    Ok(if stock.kind().is_camera_film() { PerLayer::all(stock.mid_grey()?) } else { print_mid_grey(stock)? })
 }
 
 /// A grey card in `negative`, printed on `print`.

@@ -31,7 +31,7 @@ pub struct DataSheet {
     pub sensitivity_csv: &'static str,
     /// Characteristic (H-D) curves: log10 exposure; density through the three filters.
     pub characteristic_csv: &'static str,
-    /// Spectral density of the three dyes, of D-min and of the neutral, over nm.
+    /// Spectral density of the three dyes, of D-min and of the neutral, over nm; empty for black and white.
     pub dye_density_csv: &'static str,
     /// Modulation transfer: cycles per mm; response of the three layers, or of all. `None` where none is digitised or it is not the
     /// film's own.
@@ -40,6 +40,16 @@ pub struct DataSheet {
     pub granularity_csv: Option<&'static str>,
     /// Where the figures come from, in words.
     pub source_md: &'static str,
+}
+
+/// Black and white has no file of dyes.
+macro_rules! dyes {
+    ($id:literal silver) => {
+        ""
+    };
+    ($id:literal dyes) => {
+        include_str!(concat!("../", $id, "/dye_density.csv"))
+    };
 }
 
 macro_rules! figure {
@@ -52,14 +62,14 @@ macro_rules! figure {
 }
 
 macro_rules! sheets {
-    ($($id:literal $($mtf:ident $($granularity:ident)?)?;)*) => {
-        /// Every stock: negatives, reversal films, print films.
+    ($($id:literal $image:ident $($mtf:ident $($granularity:ident)?)?;)*) => {
+        /// Every stock: camera films, print films, papers; black and white last.
         pub static ALL: &[DataSheet] = &[$(DataSheet {
             id: $id,
             stock_toml: include_str!(concat!("../", $id, "/stock.toml")),
             sensitivity_csv: include_str!(concat!("../", $id, "/sensitivity.csv")),
             characteristic_csv: include_str!(concat!("../", $id, "/characteristic.csv")),
-            dye_density_csv: include_str!(concat!("../", $id, "/dye_density.csv")),
+            dye_density_csv: dyes!($id $image),
             mtf_csv: figure!($id, "mtf.csv" $(, $mtf)?),
             granularity_csv: figure!($id, "granularity.csv" $($(, $granularity)?)?),
             source_md: include_str!(concat!("../", $id, "/SOURCE.md")),
@@ -68,41 +78,56 @@ macro_rules! sheets {
 }
 
 sheets! {
-    "kodak-5203" mtf granularity;
-    "kodak-5206" mtf;
-    "kodak-5207" mtf granularity;
-    "kodak-5213" mtf granularity;
-    "kodak-5219" mtf granularity;
-    "kodak-5277" mtf granularity;
-    "kodak-5248" mtf granularity;
-    "kodak-portra-160";
-    "kodak-portra-400" mtf;
-    "kodak-portra-800" mtf;
-    "kodak-ektar-100" mtf;
-    "kodak-gold-200";
-    "kodak-ultramax-400";
-    "kodak-vericolor-iii" mtf;
-    "kodak-aerocolor" mtf;
-    "fuji-eterna-500" mtf;
-    "fuji-eterna-500-vivid" mtf;
-    "fuji-pro-160c" mtf;
-    "fuji-pro-160s" mtf;
-    "fuji-pro-400h" mtf;
-    "fuji-superia-reala" mtf;
-    "fuji-superia-x-tra-400" mtf;
-    "fuji-c200" mtf;
-    "fuji-natura-1600" mtf;
-    "agfa-vista-100" mtf;
-    "kodak-ektachrome-100" mtf granularity;
-    "kodak-kodachrome-64" mtf;
-    "fuji-velvia-50";
-    "fuji-provia-100f" mtf;
-    "kodak-2383";
-    "kodak-2393";
-    "kodak-5384";
-    "kodak-5386";
-    "fuji-3513di";
-    "fuji-3523xd";
+    "kodak-5203" dyes mtf granularity;
+    "kodak-5206" dyes mtf;
+    "kodak-5207" dyes mtf granularity;
+    "kodak-5213" dyes mtf granularity;
+    "kodak-5219" dyes mtf granularity;
+    "kodak-5277" dyes mtf granularity;
+    "kodak-5248" dyes mtf granularity;
+    "kodak-portra-160" dyes;
+    "kodak-portra-400" dyes mtf;
+    "kodak-portra-800" dyes mtf;
+    "kodak-ektar-100" dyes mtf;
+    "kodak-gold-200" dyes;
+    "kodak-ultramax-400" dyes;
+    "kodak-vericolor-iii" dyes mtf;
+    "kodak-aerocolor" dyes mtf;
+    "fuji-eterna-500" dyes mtf;
+    "fuji-eterna-500-vivid" dyes mtf;
+    "fuji-pro-160c" dyes mtf;
+    "fuji-pro-160s" dyes mtf;
+    "fuji-pro-400h" dyes mtf;
+    "fuji-superia-reala" dyes mtf;
+    "fuji-superia-x-tra-400" dyes mtf;
+    "fuji-c200" dyes mtf;
+    "fuji-natura-1600" dyes mtf;
+    "agfa-vista-100" dyes mtf;
+    "kodak-ektachrome-100" dyes mtf granularity;
+    "kodak-kodachrome-64" dyes mtf;
+    "fuji-velvia-50" dyes;
+    "fuji-provia-100f" dyes mtf;
+    "kodak-2383" dyes;
+    "kodak-2393" dyes;
+    "kodak-5384" dyes;
+    "kodak-5386" dyes;
+    "fuji-3513di" dyes;
+    "fuji-3523xd" dyes;
+    "kodak-endura-premier" dyes;
+    "kodak-portra-endura" dyes;
+    "kodak-supra-endura" dyes;
+    "fuji-crystal-archive-dpii" dyes;
+    "fuji-crystal-archive-pdii" dyes;
+    "fuji-crystal-archive-super-c" dyes;
+    "fuji-fujiflex" dyes;
+    "kodak-radiance-iii" dyes;
+    "ilford-ilfochrome-micrographic" dyes;
+    "fuji-fp-100c" dyes;
+    "fuji-instax" dyes;
+    "kodak-5222" silver mtf;
+    "kodak-tri-x-400" silver mtf;
+    "kodak-2302" silver;
+    "kodak-polymax-fine-art" silver;
 }
 
 /// The stock with this id, `None` if there is none.

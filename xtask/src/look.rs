@@ -118,7 +118,8 @@ impl Named {
     /// As a description in `file` has it.
     fn of_keys(file: &Path, key: &str, id: &str, sheet: Option<SheetKeys<'_>>) -> Result<Self> {
         let Some(sheet) = sheet else { return Ok(Self::BuiltIn(id.to_owned())) };
-        let folder = file.parent().unwrap_or(Path::new("")).join(sheet.path);
+        let variant = id.split_once('@').map_or_else(String::new, |(_, variant)| format!("@{variant}"));
+        let folder = file.parent().unwrap_or(Path::new("")).join(format!("{}{variant}", sheet.path));
         let own = own_stock::read(&folder).with_context(|| format!("{}: {key}_sheet", file.display()))?;
         if own.sheet.sha256 != sheet.sha256 {
             bail!(
@@ -137,9 +138,9 @@ impl Named {
         let usual = match self {
             Self::BuiltIn(id) => Process::for_camera(id)?.print().map(|print| print.id().to_owned()),
             Self::Own(own) => match own.stock.kind() {
-                StockKind::Negative => Some(onelight::DEFAULT_PRINT.to_owned()),
+                StockKind::Negative => Some(onelight::usual_print(own.stock.image()).to_owned()),
                 // What is no film for a camera is refused with the rest.
-                StockKind::Reversal | StockKind::Print => None,
+                _ => None,
             },
         };
         Ok(usual.map(|usual| known.unwrap_or(Named::BuiltIn(usual))))

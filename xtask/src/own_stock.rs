@@ -26,9 +26,14 @@ pub(crate) fn is_folder(word: &str) -> bool {
     onelight::stock_ids().all(|id| id != word) && (word.contains(['/', '\\']) || Path::new(word).is_dir())
 }
 
-/// Reads the data sheet in a folder.
+/// Reads the data sheet in a folder; after an `@` stands the variant that is meant.
 pub(crate) fn read(folder: &Path) -> Result<OwnStock> {
     let shown = folder.display();
+    let whole = folder.to_str().filter(|_| !folder.is_dir());
+    let (folder, variant) = match whole.and_then(|whole| whole.rsplit_once('@')) {
+        Some((folder, variant)) => (Path::new(folder), Some(variant)),
+        None => (folder, None),
+    };
     if !folder.is_dir() {
         bail!("{shown}: no such folder, expected one in the form of stocks/kodak-5207");
     }
@@ -39,17 +44,22 @@ pub(crate) fn read(folder: &Path) -> Result<OwnStock> {
     let (Some(path), Some(id)) = (folder.to_str(), folder.file_name().and_then(|name| name.to_str())) else {
         bail!("{shown}: its name is no text, expected a folder named as the stock's id");
     };
-    let [stock_toml, sensitivity_csv, characteristic_csv, dye_density_csv] =
-        [text(&folder, FILES[0])?, text(&folder, FILES[1])?, text(&folder, FILES[2])?, text(&folder, FILES[3])?];
+    let [stock_toml, sensitivity_csv, characteristic_csv] =
+        [text(&folder, FILES[0])?, text(&folder, FILES[1])?, text(&folder, FILES[2])?];
+    // Black and white has no dyes.
+    let silver = stock_toml.contains("silver") && !folder.join(FILES[3]).exists();
+    let dye_density_csv = if silver { String::new() } else { text(&folder, FILES[3])? };
+    let id = variant.map_or_else(|| id.to_owned(), |variant| format!("{id}@{variant}"));
     let stock = Stock::parse(&SheetText {
-        id,
+        id: &id,
         stock_toml: &stock_toml,
         sensitivity_csv: &sensitivity_csv,
         characteristic_csv: &characteristic_csv,
         dye_density_csv: &dye_density_csv,
     })?;
     let sha256 = digest([&stock_toml, &sensitivity_csv, &characteristic_csv, &dye_density_csv]);
-    Ok(OwnStock { stock, sheet: OwnSheet { id: id.to_owned(), path: path.to_owned(), sha256 } })
+    let sheet = OwnSheet { id: stock.id().to_owned(), path: path.to_owned(), sha256 };
+    Ok(OwnStock { stock, sheet })
 }
 
 fn text(folder: &Path, name: &str) -> Result<String> {
@@ -64,9 +74,11 @@ fn text(folder: &Path, name: &str) -> Result<String> {
     Ok(text)
 }
 
-/// What `sha256sum stock.toml sensitivity.csv characteristic.csv dye_density.csv | sha256sum` says of these texts.
+/// What `sha256sum stock.toml sensitivity.csv characteristic.csv dye_density.csv | sha256sum` says of these texts; black and white
+/// has three of them.
 fn digest(texts: [&str; 4]) -> String {
-    let lines = FILES.iter().zip(texts).map(|(name, text)| format!("{}  {name}\n", hex(&Sha256::digest(text))));
+    let files = FILES.iter().zip(texts).filter(|(_, text)| !text.is_empty());
+    let lines = files.map(|(name, text)| format!("{}  {name}\n", hex(&Sha256::digest(text))));
     hex(&Sha256::digest(lines.collect::<String>()))
 }
 

@@ -83,6 +83,7 @@ fn characteristic(stock: &Stock) -> Panel {
     let y = match stock.densitometry() {
         Densitometry::StatusM => "density (status M)",
         Densitometry::StatusA => "density (status A)",
+        Densitometry::Visual => "density (visual)",
     };
     let mark = stock.mid_grey().ok().map(|h| (h.0, "18 % grey"));
     Panel { title: "characteristic curves", x, y, curves: curves.collect(), mark }
@@ -168,7 +169,7 @@ impl Panel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use onelight::{StockKind, stock, stock_ids};
+    use onelight::{stock, stock_ids};
 
     #[test]
     fn every_plot_names_its_curves_and_axes_and_marks_the_grey_of_camera_films() {
@@ -181,7 +182,7 @@ mod tests {
             {
                 assert!(svg.contains(text), "{id}: {text}");
             }
-            assert_eq!(svg.contains("18 % grey"), stock.kind() != StockKind::Print, "{id}");
+            assert_eq!(svg.contains("18 % grey"), stock.kind().is_camera_film(), "{id}");
             assert_eq!(svg.contains("(cm\u{b2}/erg)"), stock.criterion().is_some(), "{id}");
             assert!(!svg.contains("NaN") && svg.trim_end().ends_with("</svg>"), "{id}");
         }

@@ -1,7 +1,7 @@
 use std::sync::OnceLock;
 
 use onelight_spectra::quantity::Transmittance;
-use onelight_spectra::{SpectralDistribution, SpectralShape, quantity::Responsivity};
+use onelight_spectra::{Illuminant, Observer, SpectralDistribution, SpectralShape, illuminant, quantity::Responsivity};
 
 use crate::error::Error;
 use crate::layer::PerLayer;
@@ -23,6 +23,8 @@ pub enum Densitometry {
     StatusM,
     /// Status A: for prints and reversal film, which are to be looked at.
     StatusA,
+    /// Visual: for silver. The eye of the CIE in the light of illuminant A, the same in all three channels.
+    Visual,
 }
 
 impl Densitometry {
@@ -54,13 +56,28 @@ impl Densitometry {
     pub fn responses(self) -> &'static PerLayer<SpectralDistribution<Responsivity>> {
         static M: OnceLock<PerLayer<SpectralDistribution<Responsivity>>> = OnceLock::new();
         static A: OnceLock<PerLayer<SpectralDistribution<Responsivity>>> = OnceLock::new();
+        static VISUAL: OnceLock<PerLayer<SpectralDistribution<Responsivity>>> = OnceLock::new();
         let (kept, source, text) = match self {
             Self::StatusM => (&M, "status_m_log10.csv", include_str!("../data/status_m_log10.csv")),
             Self::StatusA => (&A, "status_a_log10.csv", include_str!("../data/status_a_log10.csv")),
+            #[expect(clippy::expect_used, reason = "the tables are compiled in and a test reads them")]
+            Self::Visual => return VISUAL.get_or_init(|| visual().expect("the built-in tables are valid")),
         };
         #[expect(clippy::expect_used, reason = "the tables are compiled in and a test reads both")]
         kept.get_or_init(|| read(source, text).expect("the built-in tables are valid"))
     }
+}
+
+/// Luminous efficiency times the power of illuminant A.
+fn visual() -> Result<PerLayer<SpectralDistribution<Responsivity>>, Error> {
+    let shape = SpectralShape::VISIBLE;
+    let light = illuminant(Illuminant::A, shape);
+    let [_, y, _] = Observer::cie_1931().matching_functions();
+    let seen: Vec<f64> = y.values().iter().zip(light.values()).map(|(y, light)| y * light).collect();
+    let sum: f64 = seen.iter().sum();
+    let seen: SpectralDistribution<Responsivity> =
+        SpectralDistribution::from_fn(shape, |nm| seen[(nm - shape.first_nm()) as usize] / sum)?;
+    Ok(PerLayer::all(seen))
 }
 
 fn read(source: &str, text: &str) -> Result<PerLayer<SpectralDistribution<Responsivity>>, Error> {
@@ -84,7 +101,7 @@ mod tests {
         let shape = SpectralShape::VISIBLE;
         let film = SpectralDistribution::<OpticalDensity>::from_fn(shape, |nm| (nm / 90.0).sin().abs()).unwrap();
         let grey = SpectralDistribution::<OpticalDensity>::from_fn(shape, |_| 1.5).unwrap();
-        for kind in [Densitometry::StatusM, Densitometry::StatusA] {
+        for kind in [Densitometry::StatusM, Densitometry::StatusA, Densitometry::Visual] {
             let alone = kind.density(&film.transmittance());
             let both = kind.density(&film.stacked_on(&grey).transmittance());
             for (a, b) in alone.to_array().into_iter().zip(both.to_array()) {

@@ -102,13 +102,13 @@ impl InterImage {
         Self::new(near, far)
     }
 
-    /// The usual effect of a kind of film and where it is from; print films have none.
+    /// The usual effect of a kind of film and where it is from; print films and papers have none, and of instant film none is known.
     #[must_use]
     pub fn of_kind(kind: StockKind) -> Option<(Self, InterImageOrigin)> {
         match kind {
             StockKind::Negative => Some((Self::NEGATIVE, InterImageOrigin::Transferred)),
             StockKind::Reversal => Some((Self::REVERSAL, InterImageOrigin::Assumed)),
-            StockKind::Print => None,
+            StockKind::Instant | StockKind::Print | StockKind::Paper | StockKind::ReversalPrint => None,
         }
     }
 

@@ -71,7 +71,9 @@ pub use onelight_spectra::MID_GREY;
 pub use printable::printable;
 pub use quantity::{Density, DyeAmount, EXPOSURE_FLOOR, LogExposure};
 pub use sensitivity::{SensitivityPeak, SpectralSensitivity, Tail};
-pub use stock::{AimDensities, ExposureAxis, MidGrey, Normalisation, Origin, SheetText, Stock, StockKind, Uncertainty};
+pub use stock::{
+    AimDensities, ExposureAxis, Image, MidGrey, Normalisation, Origin, SheetText, Stock, StockKind, Uncertainty,
+};
 pub use table::{MAX_COLUMNS, MAX_ROWS, NumberTable};
 
 /// The examples of README.md, compiled and run with the tests.

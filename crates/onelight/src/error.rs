@@ -1,5 +1,7 @@
 use std::fmt;
 
+use onelight_film::StockKind;
+
 /// What went wrong: one sentence that says what, where, what was found and what was expected.
 ///
 /// ```
@@ -71,8 +73,9 @@ impl Error {
         ErrorKind::Setting { what: what.to_owned(), found, expected: format!("{low} to {high}") }.into()
     }
 
-    pub(crate) fn print_film_in_camera(id: &str) -> Self {
-        let sentence = format!("{id} is a print film, expected a negative or reversal film in the camera");
+    /// Something to print on where a camera film belongs.
+    pub(crate) fn not_for_a_camera(id: &str, kind: StockKind) -> Self {
+        let sentence = format!("{id} is a {}, expected a negative or reversal film in the camera", kind.name());
         ErrorKind::Contradiction(sentence).into()
     }
 

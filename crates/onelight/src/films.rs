@@ -1,7 +1,7 @@
-use onelight_film::{Stock, StockKind};
+use onelight_film::{Image, Stock, StockKind};
 
 use crate::error::{Error, ErrorKind};
-use crate::process::{FilmProcess, FirstProcess, Process, StockRef};
+use crate::process::{FilmProcess, FirstProcess, Process, StockRef, usual_print};
 use crate::stocks::stock;
 
 /// The film in the camera and the one it is printed on, as [`Process::compile_with`] takes them: built in or read from sheets
@@ -16,9 +16,9 @@ use crate::stocks::stock;
 /// ```
 #[derive(Debug)]
 pub struct Films {
-    /// A negative or a reversal film.
+    /// A negative, a reversal or an instant film.
     pub camera: Stock,
-    /// The print film of a negative; `None` for reversal film.
+    /// The print film or paper of a negative; `None` for reversal film that is shown itself.
     pub print: Option<Stock>,
 }
 
@@ -40,19 +40,39 @@ impl Films {
 
     /// Whether the films fit together.
     pub(crate) fn check(&self) -> Result<(), Error> {
-        let camera = self.camera.id();
-        match (self.camera.kind(), self.print.as_ref().map(|p| (p.kind(), p.id()))) {
-            (StockKind::Print, _) => Err(Error::print_film_in_camera(camera)),
-            (StockKind::Negative, None) => {
-                refuse(format!("{camera} is a negative, expected a print film to see it on, such as kodak-2383"))
+        let (camera, kind, image) = (self.camera.id(), self.camera.kind(), self.camera.image());
+        let usual = usual_print(image);
+        let Some(print) = &self.print else {
+            return match kind {
+                StockKind::Negative => {
+                    refuse(format!("{camera} is a negative, expected a print film to see it on, such as {usual}"))
+                }
+                StockKind::Reversal | StockKind::Instant => Ok(()),
+                kind => Err(Error::not_for_a_camera(camera, kind)),
+            };
+        };
+        if !kind.is_camera_film() {
+            return Err(Error::not_for_a_camera(camera, kind));
+        }
+        let (id, found) = (print.id(), print.kind());
+        if kind.printed_on().contains(&found) {
+            return if self.camera.is_printed_on(print) { Ok(()) } else { refuse(one_image(&self.camera, print)) };
+        }
+        match kind {
+            StockKind::Negative if found.is_camera_film() => {
+                refuse(format!("{id} is a camera film, expected a print film, such as {usual}"))
             }
-            (StockKind::Reversal, Some((_, print))) => refuse(format!(
-                "{camera} is a reversal film and is shown as it is, expected no print film instead of {print}"
+            StockKind::Negative => refuse(format!(
+                "{camera} is a negative, expected a print film, such as {usual}, instead of the {} {id}",
+                found.name()
             )),
-            (StockKind::Negative, Some((StockKind::Negative | StockKind::Reversal, print))) => {
-                refuse(format!("{print} is a camera film, expected a print film, such as kodak-2383"))
-            }
-            _ => Ok(()),
+            StockKind::Reversal => refuse(format!(
+                "{camera} is a reversal film and is shown as it is or printed on reversal paper, expected no print film instead of {id}"
+            )),
+            kind => refuse(format!(
+                "{camera} is an {} and is shown as it is, expected no print film instead of {id}",
+                kind.name()
+            )),
         }
     }
 
@@ -97,6 +117,16 @@ impl Films {
         }
         process
     }
+}
+
+/// The sentence for colour on black and white, or the other way round.
+fn one_image(camera: &Stock, print: &Stock) -> String {
+    let name = |stock: &Stock| match stock.image() {
+        Image::Dye => "in colour",
+        Image::Silver => "black and white",
+    };
+    let (camera, of_camera, print, of_print) = (camera.id(), name(camera), print.id(), name(print));
+    format!("{camera} is {of_camera} and {print} {of_print}, expected both alike")
 }
 
 fn built_in(film: &StockRef) -> Result<Stock, Error> {

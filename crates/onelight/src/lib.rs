@@ -122,7 +122,7 @@ pub use error::Error;
 pub use films::Films;
 pub use look::{FirstApproach, Look, PostColour, Texels, ToneCurve, ToneMapped};
 pub use onelight_film as film;
-pub use onelight_film::{DyeModel, Matching, SheetText, Stock, StockKind, Tail};
+pub use onelight_film::{DyeModel, Image, Matching, SheetText, Stock, StockKind, Tail};
 #[cfg(feature = "formats")]
 pub use onelight_formats as formats;
 #[cfg(feature = "gpu")]
@@ -134,8 +134,8 @@ pub use onelight_printing::{Aim, Calibration, Filters, HeatGlass, Infrared, Prin
 pub use onelight_spectra as spectra;
 pub use onelight_spectra::{Reconstruction, TransferCurve};
 pub use process::{
-    Approach, ColourSpaces, DEFAULT_CAMERA, DEFAULT_PRINT, FilmProcess, FirstControls, FirstProcess, OwnSheet,
-    Printing, Process, StockRef, ToneMapping, ToneProcess,
+    Approach, ColourSpaces, DEFAULT_CAMERA, DEFAULT_PRINT, DEFAULT_SILVER_PRINT, FilmProcess, FirstControls,
+    FirstProcess, OwnSheet, Printing, Process, StockRef, ToneMapping, ToneProcess, usual_print,
 };
 pub use process_keys::{FormatVersion, ProcessKeys, SheetKeys};
 pub use reference::{PrintStage, Reference, Stages};

@@ -1,8 +1,8 @@
 use nalgebra::Matrix3;
-use onelight_film::{AmountCurve, DyeAmount, ExposureMatrix, LogExposure, PerLayer, Stock};
+use onelight_film::{AmountCurve, DyeAmount, ExposureMatrix, Image, LogExposure, PerLayer, Stock, Tail};
 use onelight_printing::{
-    Duplication, EquivalentNeutralDensity, LitDuplication, PrinterLights, Projection, print_mid_grey, print_target,
-    reversal_target,
+    Duplication, EquivalentNeutralDensity, LitDuplication, PrinterLights, Projection, Projector, print_mid_grey,
+    print_target, reversal_target,
 };
 use onelight_spectra::quantity::Power;
 use onelight_spectra::{Basis, DisplayDifference, SpectralDistribution, SpectralShape, TransferCurve};
@@ -99,7 +99,8 @@ impl Reference {
             rayon::join(|| process.dyes.amounts(film, own_grey), || films.print.as_ref().map(of_print).transpose());
         let (camera, print) = (camera?, print?);
         let shown = films.print.as_ref().unwrap_or(film);
-        let projection = Projection::new(shown.dyes_on(SpectralShape::VISIBLE)?, process.projector, &output)?;
+        let projection =
+            Projection::new(shown.dyes_on(SpectralShape::VISIBLE)?, viewed_by(process.projector, shown)?, &output)?;
         let normal = match printing {
             Some(_) => own_grey,
             None => reversal_target(process.aim, density, film, own_grey, camera.as_ref(), &projection)?,
@@ -289,6 +290,38 @@ impl Reference {
     }
 }
 
+/// The light that a look's picture is seen by: paper is looked at in a viewing booth, and nothing projects it.
+fn viewed_by(projector: Projector, shown: &Stock) -> Result<Projector, Error> {
+    match projector {
+        Projector::Display if shown.kind().is_reflective() => Ok(Projector::ViewingBooth),
+        Projector::Theatre | Projector::TheatreUnadapted | Projector::Xenon if shown.kind().is_reflective() => {
+            let (id, kind, found) = (shown.id(), shown.kind().name(), projector.word());
+            let sentence = format!(
+                "{id} is a {kind} and is not projected, expected projector display or booth instead of {found}"
+            );
+            Err(ErrorKind::Contradiction(sentence).into())
+        }
+        Projector::Display
+        | Projector::Theatre
+        | Projector::TheatreUnadapted
+        | Projector::Xenon
+        | Projector::ViewingBooth => Ok(projector),
+    }
+}
+
+/// One layer cannot be filtered: what moves one of three layers means nothing to black and white.
+fn check_one_layer(printing: &Printing, print: &Stock) -> Result<(), Error> {
+    let [red, green, blue] = printing.points;
+    let expected = match printing.red_tail {
+        _ if print.image() == Image::Dye => return Ok(()),
+        _ if red != green || green != blue => format!("three equal points instead of {red}, {green}, {blue}"),
+        Tail::Held => "red_tail log-linear".to_owned(),
+        Tail::LogLinear => return Ok(()),
+    };
+    Err(ErrorKind::Contradiction(format!("{} is black and white and has one layer, expected {expected}", print.id()))
+        .into())
+}
+
 impl PrintStep {
     /// The printer set so that dye `grey` of the negative gives the print the exposure `target`.
     fn new(
@@ -299,6 +332,7 @@ impl PrintStep {
         target: PerLayer<LogExposure>,
         curves: PerLayer<AmountCurve>,
     ) -> Result<Self, Error> {
+        check_one_layer(printing, print)?;
         let duplication = Duplication::new(negative, print, printing.printer())?;
         let lights = duplication.calibrate_by(printing.calibration, grey, target)?;
         let lights = lights.offset(PerLayer::from(printing.points));

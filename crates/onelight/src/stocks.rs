@@ -3,14 +3,16 @@ use onelight_film::{SheetText, Stock};
 use crate::error::{Error, ErrorKind};
 use crate::message::{cut, nearest};
 
-/// The ids of all built-in stocks: negatives, reversal films, print films.
+/// The ids of all built-in stocks: camera films, print films, papers. Those with variants (development times, grades) are listed by
+/// their usual one; [`Stock::variants`] names the others.
 pub fn stock_ids() -> impl Iterator<Item = &'static str> {
     onelight_stocks::ALL.iter().map(|sheet| sheet.id)
 }
 
-/// A built-in stock by its id.
+/// A built-in stock by its id, after an `@` a variant of it.
 ///
 /// ```
+/// assert_eq!(onelight::stock("kodak-portra-800@push-1")?.exposure_index(), Some(1600.0));
 /// assert_eq!(onelight::stock("kodak-2383")?.process(), "ECP-2D");
 /// let error = onelight::stock("kodak-5270").unwrap_err();
 /// assert!(error.to_string().contains("kodak-5277") || error.to_string().contains("kodak-5207"));
@@ -18,13 +20,14 @@ pub fn stock_ids() -> impl Iterator<Item = &'static str> {
 /// ```
 ///
 /// # Errors
-/// If there is none (the message names the nearest if one is near).
+/// If there is none (the message names the nearest if one is near), or it has no such variant.
 pub fn stock(id: &str) -> Result<Stock, Error> {
-    let Some(files) = onelight_stocks::find(id) else {
-        return Err(ErrorKind::UnknownStock { found: cut(id), nearest: nearest(id, stock_ids()) }.into());
+    let folder = id.split_once('@').map_or(id, |(folder, _)| folder);
+    let Some(files) = onelight_stocks::find(folder) else {
+        return Err(ErrorKind::UnknownStock { found: cut(id), nearest: nearest(folder, stock_ids()) }.into());
     };
     Ok(Stock::parse(&SheetText {
-        id: files.id,
+        id,
         stock_toml: files.stock_toml,
         sensitivity_csv: files.sensitivity_csv,
         characteristic_csv: files.characteristic_csv,
@@ -56,7 +59,9 @@ mod tests {
                 "{found}: {nearest:?}"
             );
         }
-        for found in ["", " ", "x", "hello", "tri-x", "agfa", "no such stock", "none", "\u{4e00}", "\"", "look.toml"] {
+        for found in
+            ["", " ", "x", "hello", "ultrafine", "konica", "no such stock", "none", "\u{4e00}", "\"", "look.toml"]
+        {
             assert_eq!(nearest(found, stock_ids()), None, "{found}");
             assert_eq!(
                 stock(found).unwrap_err().to_string(),

@@ -115,10 +115,11 @@ words! {
         Tail::LogLinear = "log-linear" "the print's red sensitivity falls on beyond its sheet",
         Tail::Held = "held" "it stays as it is at the end of the sheet";
     Projector, "projector":
-        Projector::Display = "display" "6500 K",
+        Projector::Display = "display" "6500 K; D50 for paper and instant film",
         Projector::Theatre = "theatre" "5500 K, the eye adapted to it",
         Projector::TheatreUnadapted = "theatre-unadapted" "5500 K beside a 6500 K display",
-        Projector::Xenon = "xenon" "a cinema's xenon lamp, the eye adapted to it";
+        Projector::Xenon = "xenon" "a cinema's xenon lamp, the eye adapted to it",
+        Projector::ViewingBooth = "booth" "D50, the eye adapted to it: what display means for paper";
     Storage, "storage":
         Storage::F32 = "f32" "32-bit float",
         Storage::F16 = "f16" "16-bit float",

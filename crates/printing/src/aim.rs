@@ -61,7 +61,7 @@ impl Default for EquivalentNeutralDensity {
 /// Equivalent neutral density of a grey card in neutral aim unless another is named (\[Gotanda2010\]).
 pub const NEUTRAL_DENSITY: f64 = 0.7;
 
-/// The exposures at which a print film's curves reach its aim densities: where its neutral lies.
+/// The exposures at which the curves of a print film or paper reach its aim densities: where its neutral lies.
 ///
 /// ```
 /// use onelight_film::{SheetText, Stock};
@@ -80,9 +80,9 @@ pub const NEUTRAL_DENSITY: f64 = 0.7;
 /// ```
 ///
 /// # Errors
-/// If the film is no print film, or a curve does not reach the aim.
+/// If the film is a camera film, or a curve does not reach the aim.
 pub fn print_mid_grey(print: &Stock) -> Result<PerLayer<LogExposure>, Error> {
-    expect_kind(print, StockKind::Print)?;
+    expect_kind(print, |kind| !kind.is_camera_film(), "print film or paper")?;
     let aim = print.aim().ok_or(ErrorKind::WrongKind {
         stock: print.id().to_owned(),
         found: "print film without an aim",
@@ -115,7 +115,7 @@ pub fn print_target(
     }
 }
 
-/// The exposures that a grey card must give a reversal film; `own` are those of its sheet, `density` that of neutral aim.
+/// The exposures that a grey card must give a reversal or instant film that is shown itself; `own` are those of its sheet, `density` that of neutral aim.
 ///
 /// ```
 /// use onelight_film::{DyeModel, PerLayer, SheetText, Stock};
@@ -138,7 +138,7 @@ pub fn print_target(
 /// ```
 ///
 /// # Errors
-/// If the film is no reversal film, or the aim cannot be reached.
+/// If the film is neither, or the aim cannot be reached.
 pub fn reversal_target(
     aim: Aim,
     density: EquivalentNeutralDensity,
@@ -147,7 +147,7 @@ pub fn reversal_target(
     curves: PerLayer<&AmountCurve>,
     projection: &Projection,
 ) -> Result<PerLayer<LogExposure>, Error> {
-    expect_kind(film, StockKind::Reversal)?;
+    expect_kind(film, |kind| matches!(kind, StockKind::Reversal | StockKind::Instant), "reversal film")?;
     match aim {
         Aim::Sheet => Ok(own),
         Aim::Neutral => exposures(film.id(), curves, projection.neutral_amounts(density.0, film.id())?),

@@ -1,8 +1,8 @@
 use nalgebra::{Matrix3, Vector3};
-use onelight_film::{DyeAmount, Dyes, LogExposure, PerLayer, Stock, StockKind, Tail};
+use onelight_film::{DyeAmount, Dyes, Image, LogExposure, PerLayer, Stock, Tail};
 use onelight_spectra::SpectralDistribution;
 
-use crate::error::{Error, ErrorKind, expect_kind};
+use crate::error::{Error, ErrorKind, expect_pair};
 use crate::printer::{Printer, PrinterLight, PrinterLights};
 use crate::spectral_row::{SpectralRow, transmitted};
 
@@ -60,13 +60,17 @@ pub struct Duplication {
 }
 
 impl Duplication {
-    /// `negative` on `print` in `printer`.
+    /// `negative` on `print` in `printer`; also a reversal film on reversal paper. Black and white has one layer: it is lit by one
+    /// white beam whatever `printer` says of light and red tail.
     ///
     /// # Errors
     /// If a film is of the wrong kind.
     pub fn new(negative: &Stock, print: &Stock, printer: Printer) -> Result<Self, Error> {
-        expect_kind(negative, StockKind::Negative)?;
-        expect_kind(print, StockKind::Print)?;
+        expect_pair(negative, print)?;
+        let printer = match print.image() {
+            Image::Dye => printer,
+            Image::Silver => Printer { light: PrinterLight::White, red_tail: Tail::LogLinear, ..printer },
+        };
         let shape = printer.shape();
         let beams = printer.beams()?.to_array();
         let tails = PerLayer { red: printer.red_tail, green: Tail::LogLinear, blue: Tail::LogLinear };

@@ -47,13 +47,25 @@ impl Error {
 }
 
 /// # Errors
-/// If the stock is of another kind.
-pub(crate) fn expect_kind(stock: &Stock, expected: StockKind) -> Result<(), Error> {
-    if stock.kind() == expected {
+/// If the stock is not of a kind that `fits`; `expected` says which do.
+pub(crate) fn expect_kind(stock: &Stock, fits: fn(StockKind) -> bool, expected: &'static str) -> Result<(), Error> {
+    let kind = stock.kind();
+    if fits(kind) {
         return Ok(());
     }
-    let (found, expected) = (stock.kind().name(), expected.name());
-    Err(ErrorKind::WrongKind { stock: stock.id().to_owned(), found, expected }.into())
+    Err(ErrorKind::WrongKind { stock: stock.id().to_owned(), found: kind.name(), expected }.into())
+}
+
+/// # Errors
+/// If `camera` is not printed, or on nothing like `print`.
+pub(crate) fn expect_pair(camera: &Stock, print: &Stock) -> Result<(), Error> {
+    expect_kind(camera, |kind| !kind.printed_on().is_empty(), "negative or reversal film")?;
+    let usual = camera.kind().printed_on();
+    if usual.contains(&print.kind()) {
+        return Ok(());
+    }
+    let expected = usual.first().map_or("", |kind| kind.name());
+    Err(ErrorKind::WrongKind { stock: print.id().to_owned(), found: print.kind().name(), expected }.into())
 }
 
 impl From<ErrorKind> for Error {

@@ -2,7 +2,8 @@ use nalgebra::{Matrix3, Vector3};
 use onelight_film::{DyeAmount, Dyes, PerLayer};
 use onelight_spectra::quantity::Power;
 use onelight_spectra::{
-    Chromaticity, Kelvin, Observer, RgbSpace, SpectralDistribution, SpectralShape, black_body, xenon_lamp,
+    Chromaticity, Illuminant, Kelvin, Observer, RgbSpace, SpectralDistribution, SpectralShape, black_body, illuminant,
+    xenon_lamp,
 };
 
 use crate::error::{Error, ErrorKind};
@@ -16,7 +17,8 @@ use crate::spectral_row::{SpectralRow, transmitted};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Projector {
-    /// The 6500 K black body: what a display shows as white.
+    /// The 6500 K black body: what a display shows as white. Looks take [`Projector::ViewingBooth`] for it where the picture is on
+    /// paper.
     #[default]
     Display,
     /// A theatre's 5500 K; the eye takes the bare lamp for white.
@@ -25,6 +27,8 @@ pub enum Projector {
     TheatreUnadapted,
     /// A theatre's xenon lamp as measured, lines and all; the eye takes the bare lamp for white.
     Xenon,
+    /// Daylight of 5000 K (D50), in which prints on paper are judged (\[ISO3664\]); the eye takes a perfect white in it for white.
+    ViewingBooth,
 }
 
 impl Projector {
@@ -33,6 +37,7 @@ impl Projector {
             Self::Display => black_body(Kelvin::WHITE, shape),
             Self::Theatre | Self::TheatreUnadapted => black_body(Kelvin::THEATRE, shape),
             Self::Xenon => xenon_lamp(shape),
+            Self::ViewingBooth => illuminant(Illuminant::D50, shape),
         }
     }
 }
@@ -88,7 +93,9 @@ impl Projection {
         let lamp = lamp.scaled(1.0 / unscaled.y);
         let lamp_xyz = unscaled / unscaled.y;
         let white = match projector {
-            Projector::Display | Projector::Theatre | Projector::Xenon => Chromaticity::of(&lamp_xyz),
+            Projector::Display | Projector::Theatre | Projector::Xenon | Projector::ViewingBooth => {
+                Chromaticity::of(&lamp_xyz)
+            }
             Projector::TheatreUnadapted => Chromaticity::black_body_6500_k(),
         };
         let to_rgb = output.with_white(white).from_xyz()?;
@@ -148,6 +155,10 @@ impl Projection {
     /// If no amounts of the dyes give that light.
     pub fn neutral_amounts(&self, density: f64, stock: &str) -> Result<PerLayer<DyeAmount>, Error> {
         let target = self.lamp_xyz * 10f64.powf(-density);
+        let [c, m, y] = self.dyes.dyes().to_array();
+        if c == m && m == y {
+            return self.amounts_of_silver(target, density, stock);
+        }
         let mut amounts = Vector3::repeat(density);
         for _ in 0..MAX_ITERATIONS {
             let (xyz, slope) = self.xyz_and_slope(amounts);
@@ -157,6 +168,24 @@ impl Projection {
             }
             let Some(step) = slope.lu().solve(&miss) else { break };
             amounts -= step * (0.5 / step.amax()).min(1.0);
+        }
+        Err(ErrorKind::NoAmounts { stock: stock.to_owned(), density }.into())
+    }
+
+    /// As [`Projection::neutral_amounts`] for a picture in silver: the same in all three thirds, found by its luminance.
+    fn amounts_of_silver(&self, target: Vector3<f64>, density: f64, stock: &str) -> Result<PerLayer<DyeAmount>, Error> {
+        let mut amount = density;
+        for _ in 0..MAX_ITERATIONS {
+            let (xyz, slope) = self.xyz_and_slope(Vector3::repeat(amount));
+            let miss = xyz - target;
+            if miss.amax() < TOLERANCE * target.amax() {
+                return Ok(PerLayer::all(DyeAmount(amount)));
+            }
+            let step = miss.y / slope.row(1).sum();
+            if !step.is_finite() {
+                break;
+            }
+            amount -= step.clamp(-0.5, 0.5);
         }
         Err(ErrorKind::NoAmounts { stock: stock.to_owned(), density }.into())
     }

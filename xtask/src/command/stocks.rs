@@ -124,31 +124,36 @@ fn one(id: &str, out: Option<&Path>) -> Result<(String, Value)> {
 
 /// Reads all stocks and compiles every sensible process.
 fn check() -> Result<(String, Value)> {
-    let of_kind = |kind| stock_ids().filter(move |id| stock(id).is_ok_and(|stock| stock.kind() == kind));
+    let stocks: Vec<Stock> = stock_ids().map(stock).collect::<Result<_, _>>()?;
     let mut faults = Vec::new();
     let mut count = 0;
-    let mut compile = |process: Process| {
+    let mut compile = |camera: &str, print: Option<&str>| {
         count += 1;
-        if let Err(error) = process.compile() {
+        let (camera, print) = (camera.into(), print.map(Printing::on));
+        if let Err(error) = Process::from(FilmProcess { camera, print, ..Default::default() }).compile() {
             faults.push(error.to_string());
         }
     };
-    for id in stock_ids() {
-        match stock(id)?.kind() {
-            StockKind::Reversal => compile(Process::for_camera(id)?),
-            StockKind::Negative => {
-                for print in of_kind(StockKind::Print) {
-                    let (camera, print) = (id.into(), Some(Printing::on(print)));
-                    compile(Process::from(FilmProcess { camera, print, ..Default::default() }));
-                }
-            }
-            StockKind::Print => {}
+    for camera in &stocks {
+        if matches!(camera.kind(), StockKind::Reversal | StockKind::Instant) {
+            compile(camera.id(), None);
+        }
+        for print in stocks.iter().filter(|print| camera.is_printed_on(print)) {
+            compile(camera.id(), Some(print.id()));
+        }
+        for variant in camera.variants().filter(|_| camera.kind().is_camera_film()) {
+            let process = FilmProcess::for_camera(&format!("{}@{variant}", camera.id()))?;
+            compile(process.camera.id(), process.print.as_ref().map(|print| print.film.id()));
+        }
+        for variant in camera.variants().filter(|_| !camera.kind().is_camera_film()) {
+            let negative = stocks.iter().find(|negative| negative.is_printed_on(camera));
+            compile(negative.map_or("", Stock::id), Some(&format!("{}@{variant}", camera.id())));
         }
     }
     if let Some(first) = faults.first() {
         bail!("{} of {count} processes do not compile; the first: {first}", faults.len());
     }
-    let stocks = stock_ids().count();
+    let stocks = stocks.len();
     Ok((format!("{stocks} stocks read, {count} processes compiled\n"), json!({ "stocks": stocks, "processes": count })))
 }
 
@@ -182,11 +187,7 @@ fn as_json(stock: &Stock) -> Value {
 }
 
 fn kind(stock: &Stock) -> &'static str {
-    match stock.kind() {
-        StockKind::Negative => "negative",
-        StockKind::Reversal => "reversal",
-        StockKind::Print => "print",
-    }
+    stock.kind().word()
 }
 
 fn axis(stock: &Stock) -> &'static str {

@@ -15,16 +15,15 @@ pub(super) fn amounts(stock: &Stock, mid_grey: PerLayer<LogExposure>) -> Result<
     let direction = stock.kind().direction();
     let scaled = |curve: &CharacteristicCurve, h: LogExposure| -> Result<AmountCurve, Error> {
         let (log_exposure, density) = (curve.log_exposures(), curve.densities());
-        let amount: Vec<f64> = match stock.kind() {
-            StockKind::Reversal | StockKind::Print => density.to_vec(),
-            StockKind::Negative => {
-                let (low, mid) = (curve.d_min().0, curve.density(h).0);
-                if mid <= low {
-                    return Err(Error::stock(stock.id(), "mid grey lies on the toe of a characteristic curve"));
-                }
-                let c = matching_constant(stock)?;
-                density.iter().map(|d| c * (d - low) / (mid - low)).collect()
+        let amount: Vec<f64> = if stock.kind() == StockKind::Negative {
+            let (low, mid) = (curve.d_min().0, curve.density(h).0);
+            if mid <= low {
+                return Err(Error::stock(stock.id(), "mid grey lies on the toe of a characteristic curve"));
             }
+            let c = matching_constant(stock)?;
+            density.iter().map(|d| c * (d - low) / (mid - low)).collect()
+        } else {
+            density.to_vec()
         };
         AmountCurve::new(log_exposure.to_vec(), &amount, direction)
     };

@@ -2,13 +2,14 @@
 
 mod constants;
 mod literal;
+mod silver;
 mod wedge;
 
 use crate::curve::AmountCurve;
 use crate::error::Error;
 use crate::layer::PerLayer;
 use crate::quantity::LogExposure;
-use crate::stock::{Stock, StockKind};
+use crate::stock::{Image, Stock, StockKind};
 
 /// How densities of the characteristic curves become amounts of dye. docs/talk.md says how far the three are apart.
 ///
@@ -46,12 +47,11 @@ impl DyeModel {
     /// If no amounts give the densities of the sheet, or the sheet lacks what the model needs.
     pub fn amounts(self, stock: &Stock, mid_grey: PerLayer<LogExposure>) -> Result<PerLayer<AmountCurve>, Error> {
         match self {
-            Self::Wedge => wedge::amounts(stock, mid_grey),
+            // One layer, whose density is its amount: the models are the same.
+            _ if stock.image() == Image::Silver => silver::amounts(stock),
             Self::Literal => literal::amounts(stock, mid_grey),
-            Self::Constants => match stock.kind() {
-                StockKind::Negative => constants::amounts(stock),
-                StockKind::Reversal | StockKind::Print => wedge::amounts(stock, mid_grey),
-            },
+            Self::Constants if stock.kind() == StockKind::Negative => constants::amounts(stock),
+            Self::Wedge | Self::Constants => wedge::amounts(stock, mid_grey),
         }
     }
 }

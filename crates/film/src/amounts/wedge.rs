@@ -14,13 +14,12 @@ const STEP: f64 = 0.01;
 pub(super) fn amounts(stock: &Stock, mid_grey: PerLayer<LogExposure>) -> Result<PerLayer<AmountCurve>, Error> {
     let dyes = stock.dyes_on(SpectralShape::VISIBLE)?;
     let reader = DyeDensitometer::new(&dyes, stock.densitometry());
-    let base = match stock.kind() {
+    let base = if stock.kind() == StockKind::Negative {
         // Sheet and spectral curve disagree by some hundredths at D-min: keep the spectral one, add what the curve adds.
-        StockKind::Negative => {
-            let clear = reader.density(PerLayer::all(DyeAmount(0.0)));
-            stock.characteristic().zip_map(clear, |c, d| d.0 - c.d_min().0)
-        }
-        StockKind::Reversal | StockKind::Print => PerLayer::all(0.0),
+        let clear = reader.density(PerLayer::all(DyeAmount(0.0)));
+        stock.characteristic().zip_map(clear, |c, d| d.0 - c.d_min().0)
+    } else {
+        PerLayer::all(0.0)
     };
     let (from, to) = range(stock, mid_grey);
     let steps = ((to - from) / STEP).ceil().max(1.0);

@@ -17,20 +17,68 @@ use crate::quantity::Density;
 pub enum StockKind {
     /// A camera film that is printed.
     Negative,
-    /// A camera film that is projected itself.
+    /// A camera film that is projected itself, or printed on reversal paper.
     Reversal,
-    /// A film that negatives are printed on.
+    /// A camera film that makes its own print, which is looked at in reflected light.
+    Instant,
+    /// A film that negatives are printed on, to be projected.
     Print,
+    /// A paper that negatives are printed on, looked at in reflected light.
+    Paper,
+    /// A paper that reversal films are printed on, looked at in reflected light.
+    ReversalPrint,
 }
 
 impl StockKind {
-    /// What such a film is called in a sentence: `negative`, `reversal film` or `print film`.
+    /// All kinds, camera films first.
+    pub const ALL: [Self; 6] =
+        [Self::Negative, Self::Reversal, Self::Instant, Self::Print, Self::Paper, Self::ReversalPrint];
+
+    /// What such a film is called in a sentence, such as `reversal film`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Negative => "negative",
             Self::Reversal => "reversal film",
+            Self::Instant => "instant film",
             Self::Print => "print film",
+            Self::Paper => "paper",
+            Self::ReversalPrint => "reversal paper",
+        }
+    }
+
+    /// The `kind` of a data sheet, such as `reversal-print`.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Negative => "negative",
+            Self::Reversal => "reversal",
+            Self::Instant => "instant",
+            Self::Print => "print",
+            Self::Paper => "paper",
+            Self::ReversalPrint => "reversal-print",
+        }
+    }
+
+    /// Whether it goes into a camera; all others are printed on.
+    #[must_use]
+    pub fn is_camera_film(self) -> bool {
+        matches!(self, Self::Negative | Self::Reversal | Self::Instant)
+    }
+
+    /// Whether it is looked at in reflected light: its densities are those of reflection.
+    #[must_use]
+    pub fn is_reflective(self) -> bool {
+        matches!(self, Self::Instant | Self::Paper | Self::ReversalPrint)
+    }
+
+    /// The kinds that a camera film is printed on, the usual one first; none for what is not printed.
+    #[must_use]
+    pub fn printed_on(self) -> &'static [Self] {
+        match self {
+            Self::Negative => &[Self::Print, Self::Paper],
+            Self::Reversal => &[Self::ReversalPrint],
+            Self::Instant | Self::Print | Self::Paper | Self::ReversalPrint => &[],
         }
     }
 
@@ -38,10 +86,26 @@ impl StockKind {
     #[must_use]
     pub fn direction(self) -> Direction {
         match self {
-            Self::Negative | Self::Print => Direction::Rising,
-            Self::Reversal => Direction::Falling,
+            Self::Negative | Self::Print | Self::Paper => Direction::Rising,
+            Self::Reversal | Self::Instant | Self::ReversalPrint => Direction::Falling,
         }
     }
+}
+
+/// What a developed picture is made of: the `image` of a data sheet.
+///
+/// ```
+/// use onelight_film::Image;
+/// assert_eq!(Image::default(), Image::Dye);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Image {
+    /// Three layers, each with its dye.
+    #[default]
+    Dye,
+    /// One layer of silver: black and white. Silver is taken to hold back all wavelengths alike.
+    Silver,
 }
 
 /// What the numbers on a characteristic curve's exposure axis are: the `axis` of a data sheet.
@@ -162,7 +226,7 @@ pub struct Uncertainty {
     pub dye_density: Option<[f64; 3]>,
 }
 
-/// What a properly printed grey card should measure on a print film: its laboratory aim densities.
+/// What a properly printed grey card should measure on a print film or paper: its laboratory aim densities.
 ///
 /// ```
 /// use onelight_film::{Density, SheetText, Stock};
@@ -177,7 +241,7 @@ pub struct Uncertainty {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AimDensities {
-    /// Status A density through the red, green and blue filter.
+    /// Status A density through the red, green and blue filter; three times the visual density on black and white.
     pub status_a: PerLayer<Density>,
     /// Whether the sheet states them.
     pub origin: Origin,

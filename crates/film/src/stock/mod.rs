@@ -2,11 +2,12 @@
 
 mod facts;
 mod figures;
+mod layers;
 mod sheet;
 
 use onelight_spectra::SpectralShape;
 
-pub use facts::{AimDensities, ExposureAxis, MidGrey, Normalisation, Origin, StockKind, Uncertainty};
+pub use facts::{AimDensities, ExposureAxis, Image, MidGrey, Normalisation, Origin, StockKind, Uncertainty};
 
 use crate::curve::CharacteristicCurve;
 use crate::densitometry::Densitometry;
@@ -20,6 +21,7 @@ use crate::printable::printable;
 use crate::quantity::{Density, LogExposure};
 use crate::sensitivity::SpectralSensitivity;
 use crate::table::NumberTable;
+use layers::{ImageDensity, Layers};
 
 /// Most characters of an id that a message repeats.
 const ID_CHARACTERS: usize = 64;
@@ -41,16 +43,18 @@ const ID_CHARACTERS: usize = 64;
 /// ```
 #[derive(Debug, Clone, Copy)]
 pub struct SheetText<'a> {
-    /// Name of the folder, expected to be the `id` in `stock.toml`; messages begin with it.
+    /// Name of the folder, expected to be the `id` in `stock.toml`; messages begin with it. After an `@` may stand a variant of that
+    /// file, as in `kodak-portra-800@push-1`.
     pub id: &'a str,
     /// `stock.toml`: what the film is, what its sheet states, and where each set of figures comes from.
     pub stock_toml: &'a str,
-    /// `sensitivity.csv`: `wavelength_nm`, and log10 of the sensitivity in `red`, `green`, `blue`.
+    /// `sensitivity.csv`: `wavelength_nm`, and log10 of the sensitivity in `red`, `green`, `blue`; in `silver` for black and white.
     pub sensitivity_csv: &'a str,
-    /// `characteristic.csv`: `log10_exposure`, and the density in `red`, `green`, `blue`.
+    /// `characteristic.csv`: `log10_exposure`, and the density in `red`, `green`, `blue`, or `silver`; a variant's after an `@`, as in
+    /// `red@push-1`.
     pub characteristic_csv: &'a str,
     /// `dye_density.csv`: `wavelength_nm`, and the spectral density of `cyan`, `magenta`, `yellow`, `d_min` and `neutral`; the last
-    /// two may be blank (a negative needs `d_min`).
+    /// two may be blank (a negative needs `d_min`). Empty for black and white.
     pub dye_density_csv: &'a str,
 }
 
@@ -115,6 +119,7 @@ pub struct SheetText<'a> {
 /// ```
 #[derive(Debug)]
 pub struct Stock {
+    id: String,
     sheet: sheet::Sheet,
     sensitivity: PerLayer<SpectralSensitivity>,
     characteristic: PerLayer<CharacteristicCurve>,
@@ -131,50 +136,52 @@ impl Stock {
     /// # Errors
     /// The first thing that is wrong, with file, line, what was found and what was expected.
     pub fn parse(text: &SheetText<'_>) -> Result<Self, Error> {
-        let file = |name: &str| format!("{}/{name}", text.id);
-        let sheet = sheet::parse(&file("stock.toml"), text.stock_toml)?;
-        if sheet.id != text.id {
+        let (folder, asked) = text.id.split_once('@').map_or((text.id, None), |(folder, name)| (folder, Some(name)));
+        let file = |name: &str| format!("{folder}/{name}");
+        let mut sheet = sheet::parse(&file("stock.toml"), text.stock_toml)?;
+        if sheet.id != folder {
             return Err(Error::stock(
-                text.id,
+                folder,
                 format!("stock.toml has id {:?}, expected that of its folder", printable(&sheet.id, ID_CHARACTERS)),
             ));
         }
+        let variant = sheet.choose(asked)?;
         let sensitivity = NumberTable::parse(&file("sensitivity.csv"), text.sensitivity_csv)?;
         let characteristic = NumberTable::parse(&file("characteristic.csv"), text.characteristic_csv)?;
-        let dye_density = NumberTable::parse(&file("dye_density.csv"), text.dye_density_csv)?;
-        let direction = sheet.kind.direction();
-        let layers = PerLayer::all(());
-        let optional = |name: &str| -> Result<Option<DyeDensity>, Error> {
-            let published = dye_density.column(name)?.iter().any(Option::is_some);
-            if published { Ok(Some(DyeDensity::base(dye_density.points("wavelength_nm", name)?)?)) } else { Ok(None) }
+        let layers = Layers::read(&sheet, variant.as_deref(), &sensitivity, &characteristic)?;
+        let dyes = match &sheet.dye_density {
+            Some(section) => {
+                let table = NumberTable::parse(&file("dye_density.csv"), text.dye_density_csv)?;
+                ImageDensity::of_dyes(&table, section.base, sheet.kind)?
+            }
+            None if text.dye_density_csv.is_empty() => ImageDensity::of_silver()?,
+            None => {
+                return Err(Error::stock(folder, "dye_density.csv is there, expected none for a picture in silver"));
+            }
         };
-        let stock = Self {
-            sensitivity: layers
-                .try_map(|(), layer| SpectralSensitivity::new(sensitivity.points("wavelength_nm", layer)?))?,
-            characteristic: layers.try_map(|(), layer| {
-                let points = characteristic.points("log10_exposure", layer)?;
-                CharacteristicCurve::new(points.x, &points.y, direction)
-            })?,
-            dyes: PerLayer { red: "cyan", green: "magenta", blue: "yellow" }
-                .try_map(|dye, _| DyeDensity::dye(dye_density.points("wavelength_nm", dye)?, sheet.dye_density.base))?,
-            d_min: optional("d_min")?,
-            neutral: optional("neutral")?,
+        Ok(Self {
+            id: variant.map_or_else(|| folder.to_owned(), |name| format!("{folder}@{name}")),
+            sensitivity: layers.sensitivity,
+            characteristic: layers.characteristic,
+            dyes: dyes.image,
+            d_min: dyes.d_min,
+            neutral: dyes.neutral,
             mtf: None,
             granularity: None,
             sheet,
-        };
-        if stock.kind() == StockKind::Negative && stock.d_min.is_none() {
-            return Err(
-                dye_density.problem(1, "d_min is blank, expected values: a negative is printed through it".into())
-            );
-        }
-        Ok(stock)
+        })
     }
 
-    /// Folder name, such as `kodak-5207`.
+    /// Folder name, such as `kodak-5207`, and after an `@` the variant unless it is the usual one: `kodak-portra-800@push-1`.
     #[must_use]
     pub fn id(&self) -> &str {
-        &self.sheet.id
+        &self.id
+    }
+
+    /// The names of all variants, the usual one first where it has a name; empty if there are none.
+    pub fn variants(&self) -> impl Iterator<Item = &str> {
+        let others = self.sheet.variant.iter().map(|variant| variant.name.as_str());
+        self.sheet.usual_variant.as_deref().into_iter().chain(others)
     }
 
     /// The maker's name for it.
@@ -189,13 +196,26 @@ impl Stock {
         &self.sheet.maker
     }
 
-    /// Whether it is a negative, a reversal film or a print film.
+    /// What it is for: a camera, a printer, and which way its densities go.
     #[must_use]
     pub fn kind(&self) -> StockKind {
         self.sheet.kind
     }
 
-    /// Speed (ISO, ASA, EI); `None` for print films.
+    /// Whether its picture is of three dyes or of silver.
+    #[must_use]
+    pub fn image(&self) -> Image {
+        self.sheet.image
+    }
+
+    /// Whether `print` is something that this film is usually printed on: a kind that goes with its own, and like it in colour or in
+    /// black and white.
+    #[must_use]
+    pub fn is_printed_on(&self, print: &Self) -> bool {
+        self.kind().printed_on().contains(&print.kind()) && self.image() == print.image()
+    }
+
+    /// Speed (ISO, ASA, EI); `None` for what is printed on.
     #[must_use]
     pub fn exposure_index(&self) -> Option<f64> {
         self.sheet.exposure_index
@@ -243,17 +263,17 @@ impl Stock {
         self.sheet.characteristic.densitometry
     }
 
-    /// What one unit of a dye is: how the sheet's dye curves are scaled.
+    /// What one unit of a dye is: how the sheet's dye curves are scaled. A third of a picture in silver is one where it has density 1.
     #[must_use]
     pub fn normalisation(&self) -> Normalisation {
-        self.sheet.dye_density.normalisation
+        self.sheet.dye_density.as_ref().map_or(Normalisation::Peak, |dyes| dyes.normalisation)
     }
 
     /// What a printed grey card should measure; `None` for camera films.
     #[must_use]
     pub fn aim(&self) -> Option<AimDensities> {
         let section = self.sheet.aim.as_ref()?;
-        Some(AimDensities { status_a: PerLayer::from(section.status_a).map(Density), origin: section.origin })
+        Some(AimDensities { status_a: PerLayer::from(section.densities()).map(Density), origin: section.origin })
     }
 
     /// How far the figures can be trusted.
@@ -268,8 +288,8 @@ impl Stock {
         let parts = [
             (Some(self.sheet.sensitivity.origin), "sensitivities"),
             (Some(self.sheet.characteristic.origin), "characteristic curves"),
-            (Some(self.sheet.dye_density.origin), "dyes"),
-            (self.sheet.dye_density.d_min, "D-min"),
+            (self.sheet.dye_density.as_ref().map(|dyes| dyes.origin), "dyes"),
+            (self.sheet.dye_density.as_ref().and_then(|dyes| dyes.d_min), "D-min"),
             (self.sheet.aim.as_ref().map(|aim| aim.origin), "aim"),
             (self.sheet.mtf.as_ref().and_then(|mtf| mtf.origin), "modulation transfer"),
             (self.sheet.granularity.as_ref().and_then(|granularity| granularity.origin), "granularity"),
@@ -277,7 +297,7 @@ impl Stock {
         parts.into_iter().filter(|(origin, _)| *origin == Some(Origin::Derived)).map(|(_, what)| what).collect()
     }
 
-    /// Spectral sensitivity of each layer, as published.
+    /// Spectral sensitivity of each layer, as published; black and white has one layer, three times.
     #[must_use]
     pub fn sensitivity(&self) -> PerLayer<&SpectralSensitivity> {
         self.sensitivity.as_ref()
@@ -289,7 +309,8 @@ impl Stock {
         self.characteristic.as_ref()
     }
 
-    /// Dye of each layer: cyan, magenta, yellow.
+    /// Dye of each layer: cyan, magenta, yellow. For a picture in silver three times the third of one of density 1, so that the three
+    /// together are the silver.
     #[must_use]
     pub fn dyes(&self) -> PerLayer<&DyeDensity> {
         self.dyes.as_ref()
@@ -307,22 +328,20 @@ impl Stock {
         self.neutral.as_ref()
     }
 
-    /// Dyes, and for a negative D-min, on a grid. Prints and reversal films have none: their curves are total densities.
+    /// Dyes, and for a negative in dye D-min, on a grid. All others have none: their curves are total densities.
     ///
     /// # Errors
     /// If a density of the sheet lies beyond what a density may be.
     pub fn dyes_on(&self, shape: SpectralShape) -> Result<Dyes, Error> {
-        let d_min = match self.kind() {
-            StockKind::Negative => self.d_min.as_ref().map(|d| d.on(shape)).transpose()?,
-            StockKind::Reversal | StockKind::Print => None,
-        };
+        let base = self.d_min.as_ref().filter(|_| self.kind() == StockKind::Negative);
+        let d_min = base.map(|d| d.on(shape)).transpose()?;
         Dyes::new(self.dyes.as_ref().try_map(|dye, _| dye.on(shape))?, d_min)
     }
 
     /// Where an 18 % grey card lies on the exposure axis, the same for all layers.
     ///
     /// # Errors
-    /// If it is a print film: where its grey lies is an aim of the printer.
+    /// If it is printed on: where its grey lies is an aim of the printer.
     pub fn mid_grey(&self) -> Result<LogExposure, Error> {
         match (self.sheet.characteristic.mid_grey, self.sheet.exposure_index) {
             (Some(MidGrey::Centre), _) => {
@@ -334,7 +353,10 @@ impl Stock {
             }
             (Some(MidGrey::Speed), Some(speed)) => Ok(LogExposure((MID_GREY_LUX_S / speed).log10())),
             (Some(MidGrey::AxisZero), _) => Ok(LogExposure(0.0)),
-            _ => Err(Error::stock(self.id(), "a print film has no mid grey of its own, expected a camera film")),
+            _ => {
+                let found = format!("a {} has no mid grey of its own, expected a camera film", self.kind().name());
+                Err(Error::stock(self.id(), found))
+            }
         }
     }
 }

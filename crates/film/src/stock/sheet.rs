@@ -5,7 +5,8 @@ use serde::Deserialize;
 use crate::error::{Error, ErrorKind};
 use crate::printable::printable;
 
-use super::facts::{ExposureAxis, MidGrey, Normalisation, Origin, StockKind, Uncertainty};
+use super::facts::{ExposureAxis, Image, MidGrey, Normalisation, Origin, StockKind, Uncertainty};
+use crate::curve::Direction;
 use crate::densitometry::Densitometry;
 
 /// The version of the format that this crate reads.
@@ -24,6 +25,8 @@ pub(super) struct Sheet {
     pub(super) name: String,
     pub(super) maker: String,
     pub(super) kind: StockKind,
+    #[serde(default)]
+    pub(super) image: Image,
     pub(super) exposure_index: Option<f64>,
     pub(super) balance: String,
     pub(super) process: String,
@@ -31,11 +34,24 @@ pub(super) struct Sheet {
     pub(super) sheet: String,
     pub(super) sensitivity: SensitivitySection,
     pub(super) characteristic: CharacteristicSection,
-    pub(super) dye_density: DyeSection,
+    pub(super) dye_density: Option<DyeSection>,
     pub(super) aim: Option<AimSection>,
     pub(super) mtf: Option<FigureSection>,
     pub(super) granularity: Option<FigureSection>,
+    /// Name of the curves without an `@`; a stock with variants may leave it out.
+    pub(super) usual_variant: Option<String>,
+    #[serde(default)]
+    pub(super) variant: Vec<VariantSection>,
     pub(super) uncertainty: Uncertainty,
+}
+
+/// Other curves of the same stock: a development time, a grade of paper.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct VariantSection {
+    pub(super) name: String,
+    pub(super) exposure_index: Option<f64>,
+    pub(super) process: Option<String>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -68,7 +84,17 @@ pub(super) struct DyeSection {
 #[serde(deny_unknown_fields)]
 pub(super) struct AimSection {
     pub(super) origin: Origin,
-    pub(super) status_a: [f64; 3],
+    /// Of a picture in dye: red, green, blue.
+    pub(super) status_a: Option<[f64; 3]>,
+    /// Of a picture in silver.
+    pub(super) visual: Option<f64>,
+}
+
+impl AimSection {
+    /// The one of the two that is there.
+    pub(super) fn densities(&self) -> [f64; 3] {
+        self.status_a.or_else(|| self.visual.map(|d| [d; 3])).unwrap_or_default()
+    }
 }
 
 /// A figure that not every sheet has: `[mtf]`, `[granularity]`.
@@ -80,6 +106,28 @@ pub(super) struct FigureSection {
     pub(super) copied_from: Option<String>,
     /// Lowest densities of the curves in the figure of granularity.
     pub(super) d_min: Option<[f64; 3]>,
+}
+
+impl Sheet {
+    /// The variant that is asked for, `None` for the usual one; its speed and process become the stock's.
+    pub(super) fn choose(&mut self, asked: Option<&str>) -> Result<Option<String>, Error> {
+        let Some(asked) = asked else { return Ok(None) };
+        if self.usual_variant.as_deref() == Some(asked) {
+            return Ok(None);
+        }
+        let Some(variant) = self.variant.iter().find(|variant| variant.name == asked) else {
+            let names: Vec<&str> =
+                self.usual_variant.iter().chain(self.variant.iter().map(|v| &v.name)).map(String::as_str).collect();
+            let expected = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+            let found = format!("no variant is called {:?}, expected {expected}", printable(asked, 40));
+            return Err(Error::stock(&self.id, found));
+        };
+        self.exposure_index = variant.exposure_index.or(self.exposure_index);
+        if let Some(process) = &variant.process {
+            self.process.clone_from(process);
+        }
+        Ok(Some(variant.name.clone()))
+    }
 }
 
 pub(super) fn parse(file: &str, text: &str) -> Result<Sheet, Error> {
@@ -98,13 +146,13 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Sheet, Error> {
     let numbers = [
         ("exposure_index", sheet.exposure_index, 0.1..=1e6),
         ("criterion", sheet.sensitivity.criterion, 0.01..=3.0),
-        ("base", Some(sheet.dye_density.base), 0.0..=1.0),
-        ("status_a", sheet.aim.as_ref().map(|aim| aim.status_a[0]), 0.0..=5.0),
-        ("status_a", sheet.aim.as_ref().map(|aim| aim.status_a[1]), 0.0..=5.0),
-        ("status_a", sheet.aim.as_ref().map(|aim| aim.status_a[2]), 0.0..=5.0),
+        ("base", sheet.dye_density.as_ref().map(|dyes| dyes.base), 0.0..=1.0),
     ];
+    let aim = sheet.aim.as_ref().map(AimSection::densities).unwrap_or_default();
+    let aim = aim.map(|d| (if sheet.image == Image::Silver { "visual" } else { "status_a" }, Some(d), 0.0..=5.0));
+    let speeds = sheet.variant.iter().map(|variant| ("exposure_index", variant.exposure_index, 0.1..=1e6));
     let d_min = sheet.granularity.as_ref().and_then(|figure| figure.d_min).unwrap_or_default();
-    let numbers = numbers.into_iter().chain(d_min.map(|d| ("d_min", Some(d), 0.0..=5.0)));
+    let numbers = numbers.into_iter().chain(aim).chain(speeds).chain(d_min.map(|d| ("d_min", Some(d), 0.0..=5.0)));
     for (name, value, allowed) in numbers {
         if let Some(value) = value
             && !allowed.contains(&value)
@@ -113,12 +161,31 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Sheet, Error> {
             return Err(problem(line_of(text, name), expected));
         }
     }
-    let needs = match sheet.kind {
-        StockKind::Print if sheet.aim.is_none() => Some("a print film needs [aim]"),
-        StockKind::Negative | StockKind::Reversal if sheet.characteristic.mid_grey.is_none() => {
-            Some("a camera film needs mid_grey in [characteristic]")
+    if let Some(name) = unusable_variant(&sheet) {
+        let found = format!("variant: found {:?}, expected names of their own: {VARIANT_NAMES}", printable(name, 40));
+        return Err(problem(line_of(text, "[[variant"), found));
+    }
+    let visual = sheet.characteristic.densitometry == Densitometry::Visual;
+    let needs = match sheet.kind.is_camera_film() {
+        false if sheet.aim.is_none() => Some("what is printed on needs [aim]"),
+        true if sheet.characteristic.mid_grey.is_none() => Some("a camera film needs mid_grey in [characteristic]"),
+        true if sheet.aim.is_some() => Some("only what is printed on has an [aim]"),
+        _ if (sheet.image == Image::Silver) != visual => {
+            Some("image = \"silver\" and densitometry = \"visual\" go together")
         }
-        StockKind::Negative | StockKind::Reversal if sheet.aim.is_some() => Some("only print films have an [aim]"),
+        _ if (sheet.image == Image::Silver) != sheet.dye_density.is_none() => {
+            Some("a picture in dye needs [dye_density], one in silver has none")
+        }
+        _ if sheet.image == Image::Silver && sheet.kind.direction() == Direction::Falling => {
+            Some("a picture in silver is of kind negative, print or paper")
+        }
+        _ if sheet
+            .aim
+            .as_ref()
+            .is_some_and(|aim| aim.visual.is_some() != visual || aim.status_a.is_some() == visual) =>
+        {
+            Some("[aim] needs visual for a picture in silver, else status_a")
+        }
         _ if sheet.characteristic.mid_grey == Some(MidGrey::Speed) && sheet.exposure_index.is_none() => {
             Some("mid_grey = \"speed\" needs an exposure_index")
         }
@@ -128,6 +195,20 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Sheet, Error> {
         Some(needed) => Err(problem(line_of(text, "kind"), needed.to_owned())),
         None => Ok(sheet),
     }
+}
+
+/// What a variant may be called.
+const VARIANT_NAMES: &str = "1 to 32 of a-z, 0-9 and -";
+
+/// The first variant with a name that cannot be written after an `@`, or that is there twice.
+fn unusable_variant(sheet: &Sheet) -> Option<&str> {
+    let names: Vec<&str> =
+        sheet.usual_variant.iter().map(String::as_str).chain(sheet.variant.iter().map(|v| v.name.as_str())).collect();
+    let fits = |name: &str| {
+        (1..=32).contains(&name.len())
+            && name.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-')
+    };
+    (0..names.len()).find(|&i| !fits(names[i]) || names[..i].contains(&names[i])).map(|i| names[i])
 }
 
 /// Line of the first assignment to `key`, 1 if there is none.

@@ -1,6 +1,6 @@
 //! The inter-image effect: its laws on random exposures, and an independent computation (fixtures/reference).
 
-use onelight_film::{InterImage, InterImageEffect, LogExposure, PerLayer, SheetText, Stock, StockKind};
+use onelight_film::{InterImage, InterImageEffect, LogExposure, PerLayer, SheetText, Stock};
 use proptest::prelude::*;
 use serde_json::Value;
 
@@ -29,7 +29,7 @@ fn numbers(h: PerLayer<LogExposure>) -> [f64; 3] {
 /// Every camera film that is built in.
 fn camera_films() -> Vec<Stock> {
     let all: Vec<Stock> = onelight_stocks::ALL.iter().map(|files| stock(files.id)).collect();
-    all.into_iter().filter(|stock| stock.kind() != StockKind::Print).collect()
+    all.into_iter().filter(|stock| stock.kind().is_camera_film()).collect()
 }
 
 fn effect(film: &Stock, strength: InterImage) -> InterImageEffect {

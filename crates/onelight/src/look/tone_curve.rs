@@ -1,4 +1,4 @@
-use onelight_film::{CharacteristicCurve, Density, LogExposure, Stock, StockKind};
+use onelight_film::{CharacteristicCurve, Density, LogExposure, Stock};
 use onelight_spectra::{Pchip, TransferCurve};
 
 use crate::error::{Error, ErrorKind};
@@ -139,7 +139,7 @@ fn reached(
     density: f64,
 ) -> Result<LogExposure, Error> {
     curve.log_exposure(Density(density)).ok_or_else(|| {
-        let kind = if stock.kind() == StockKind::Print { "print" } else { "film" };
+        let kind = if stock.kind().is_camera_film() { "film" } else { "print" };
         let sentence = format!(
             "{}: grey of density {density} is beyond the {layer} layer of this {kind}, expected {:.3} to {:.3}",
             stock.id(),

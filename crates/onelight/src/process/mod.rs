@@ -15,7 +15,7 @@ pub(crate) use film::{check_exposure, check_lights};
 pub use first::{FirstControls, FirstProcess};
 pub use spaces::ColourSpaces;
 pub(crate) use stock_ref::default_print;
-pub use stock_ref::{DEFAULT_CAMERA, DEFAULT_PRINT, OwnSheet, StockRef};
+pub use stock_ref::{DEFAULT_CAMERA, DEFAULT_PRINT, DEFAULT_SILVER_PRINT, OwnSheet, StockRef, usual_print};
 pub use tone::{ToneMapping, ToneProcess};
 
 use crate::error::Error;

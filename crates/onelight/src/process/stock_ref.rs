@@ -1,14 +1,16 @@
 use std::fmt;
 
-use onelight_film::StockKind;
+use onelight_film::{Image, StockKind};
 
 use crate::error::Error;
 use crate::stocks::stock;
 
 /// The camera film of a process that names none: what \[Gotanda2010\] calls K-negative.
 pub const DEFAULT_CAMERA: &str = "kodak-5207";
-/// The print film of a negative that names none.
+/// The print film of a colour negative that names none.
 pub const DEFAULT_PRINT: &str = "kodak-2383";
+/// The print film of a black and white negative that names none.
+pub const DEFAULT_SILVER_PRINT: &str = "kodak-2302";
 
 /// Which stock a process uses: a built-in one, or a data sheet of one's own.
 ///
@@ -77,11 +79,23 @@ impl fmt::Display for StockRef {
     }
 }
 
+/// The print film of a negative that names none.
+#[must_use]
+pub fn usual_print(image: Image) -> &'static str {
+    match image {
+        Image::Dye => DEFAULT_PRINT,
+        Image::Silver => DEFAULT_SILVER_PRINT,
+    }
+}
+
 /// The print film that goes with a built-in camera film unless another is named.
 pub(crate) fn default_print(camera: &str) -> Result<Option<&'static str>, Error> {
-    match stock(camera)?.kind() {
-        StockKind::Negative => Ok(Some(DEFAULT_PRINT)),
-        StockKind::Reversal => Ok(None),
-        StockKind::Print => Err(Error::print_film_in_camera(camera)),
+    let stock = stock(camera)?;
+    match stock.kind() {
+        StockKind::Negative => Ok(Some(usual_print(stock.image()))),
+        StockKind::Reversal | StockKind::Instant => Ok(None),
+        kind @ (StockKind::Print | StockKind::Paper | StockKind::ReversalPrint) => {
+            Err(Error::not_for_a_camera(camera, kind))
+        }
     }
 }

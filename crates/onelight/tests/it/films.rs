@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, Mutex, OnceLock};
 
 use onelight::lut::DirectForm;
-use onelight::{FilmProcess, Process, Reference, StockKind, stock, stock_ids};
+use onelight::{FilmProcess, Process, Reference, Stock, StockKind, stock, stock_ids};
 
 /// Made when it is first asked for; others wait for it.
 type Slot<T> = Arc<OnceLock<Arc<T>>>;
@@ -46,14 +46,30 @@ pub(crate) fn printed(camera: &str, turn: impl FnOnce(&mut onelight::Printing)) 
     process
 }
 
-/// Every camera film once, negatives on the print films in turn, and every print film under the usual negative.
+/// Every camera film once, those that are printed on what they are printed on in turn, and all that is printed on at least once.
 pub(crate) fn films_once() -> Vec<(&'static str, Option<&'static str>)> {
-    let of_kind = |kind| stock_ids().filter(move |id| stock(id).unwrap().kind() == kind);
-    let prints: Vec<&str> = of_kind(StockKind::Print).collect();
-    let usual = prints.iter().map(|print| (onelight::DEFAULT_CAMERA, Some(*print)));
-    let in_turn = of_kind(StockKind::Negative)
-        .filter(|camera| *camera != onelight::DEFAULT_CAMERA)
-        .zip(prints.iter().cycle())
-        .map(|(camera, print)| (camera, Some(*print)));
-    of_kind(StockKind::Reversal).map(|camera| (camera, None)).chain(usual).chain(in_turn).collect()
+    let all: Vec<(&str, Stock)> = stock_ids().map(|id| (id, stock(id).unwrap())).collect();
+    let mut pairs = Vec::new();
+    let mut printed_on = vec![0; all.len()];
+    let mut print = |pairs: &mut Vec<_>, camera: usize, print: usize| {
+        printed_on[print] += 1;
+        pairs.push((all[camera].0, Some(all[print].0)));
+    };
+    for (i, (id, camera)) in all.iter().enumerate() {
+        if matches!(camera.kind(), StockKind::Reversal | StockKind::Instant) {
+            pairs.push((*id, None));
+        }
+        let fits: Vec<usize> = (0..all.len()).filter(|&print| camera.is_printed_on(&all[print].1)).collect();
+        // The usual negative is printed on everything.
+        match *id {
+            onelight::DEFAULT_CAMERA | "kodak-5222" | "fuji-velvia-50" => {
+                fits.into_iter().for_each(|on| print(&mut pairs, i, on));
+            }
+            _ if fits.is_empty() => {}
+            _ => print(&mut pairs, i, fits[i % fits.len()]),
+        }
+    }
+    let missed = all.iter().zip(&printed_on).find(|((_, stock), count)| !stock.kind().is_camera_film() && **count == 0);
+    assert!(missed.is_none(), "nothing is printed on {missed:?}");
+    pairs
 }

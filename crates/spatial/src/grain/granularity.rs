@@ -44,7 +44,7 @@ impl AmountGranularity {
         let reader = DyeDensitometer::new(&stock.dyes_on(SpectralShape::VISIBLE)?, stock.densitometry());
         let base = match stock.kind() {
             StockKind::Negative => reader.density(PerLayer::all(DyeAmount(0.0))).map(|d| d.0),
-            StockKind::Reversal | StockKind::Print => stock.characteristic().map(|curve| curve.d_min().0),
+            _ => stock.characteristic().map(|curve| curve.d_min().0),
         };
         let refuse = |problem: String| ErrorKind::Granularity { stock: stock.id().to_owned(), problem };
         let ends = figure.map(Granularity::range).to_array();

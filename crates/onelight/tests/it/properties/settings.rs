@@ -2,8 +2,8 @@
 
 use onelight::printing::Calibration;
 use onelight::{
-    Aim, ColourSpaces, DyeModel, FilmProcess, Filters, HeatGlass, Infrared, Matching, PrinterLight, Printing,
-    Projector, Reconstruction, StockKind, Tail, TransferCurve, Word, WorkingSpace, Wratten, stock, stock_ids,
+    Aim, ColourSpaces, DyeModel, FilmProcess, Filters, HeatGlass, Image, Infrared, Matching, PrinterLight, Printing,
+    Projector, Reconstruction, Stock, StockKind, Tail, TransferCurve, Word, WorkingSpace, Wratten, stock, stock_ids,
 };
 use proptest::prelude::*;
 
@@ -11,17 +11,16 @@ pub(crate) fn word<T: Word + std::fmt::Debug>() -> impl Strategy<Value = T> {
     (0..T::ALL.len()).prop_map(|i| T::ALL[i].0)
 }
 
-fn of_kind(kind: StockKind) -> impl Strategy<Value = String> {
-    let ids: Vec<String> = stock_ids().filter(|id| stock(id).unwrap().kind() == kind).map(str::to_owned).collect();
-    prop::sample::select(ids)
-}
-
-/// A camera film, and a print film where it needs one.
+/// A camera film as it is, or on something that it is printed on.
 pub(crate) fn films() -> impl Strategy<Value = (String, Option<String>)> {
-    prop_oneof![
-        3 => (of_kind(StockKind::Negative), of_kind(StockKind::Print)).prop_map(|(camera, print)| (camera, Some(print))),
-        1 => of_kind(StockKind::Reversal).prop_map(|camera| (camera, None)),
-    ]
+    let stocks: Vec<Stock> = stock_ids().map(|id| stock(id).unwrap()).collect();
+    let pairs = stocks.iter().flat_map(|camera| {
+        let prints = stocks.iter().filter(|print| camera.is_printed_on(print));
+        prints.map(|print| (camera.id().to_owned(), Some(print.id().to_owned())))
+    });
+    let alone = stocks.iter().filter(|camera| matches!(camera.kind(), StockKind::Reversal | StockKind::Instant));
+    let alone = alone.map(|camera| (camera.id().to_owned(), None)).collect::<Vec<_>>();
+    prop_oneof![3 => prop::sample::select(pairs.collect::<Vec<_>>()), 1 => prop::sample::select(alone)]
 }
 
 /// Films and the settings that every look has.
@@ -38,6 +37,9 @@ fn film() -> impl Strategy<Value = FilmProcess> {
             spaces,
         )| {
             let usual = FilmProcess::default();
+            let shown = stock(print.as_ref().unwrap_or(&camera)).unwrap();
+            // Nothing projects paper.
+            let projector = if shown.kind().is_reflective() { Projector::ViewingBooth } else { projector };
             FilmProcess {
                 camera: camera.into(),
                 print: print.as_deref().map(Printing::on),
@@ -63,6 +65,9 @@ pub(crate) fn process() -> impl Strategy<Value = FilmProcess> {
     (film(), parts, beams, calibration).prop_map(|(film, parts, beam_density, calibration)| {
         let Some(print) = film.print.clone() else { return film };
         let (light, filters, infrared, glass, red_tail) = parts;
+        // One layer has no layer of its own for red.
+        let silver = stock(print.film.id()).unwrap().image() == Image::Silver;
+        let red_tail = if silver { Tail::default() } else { red_tail };
         let filters = if light == PrinterLight::White { Filters::default() } else { filters };
         let print = Printing { light, filters, infrared, glass, red_tail, beam_density, calibration, ..print };
         FilmProcess { print: Some(print), ..film }
