@@ -1,5 +1,7 @@
 //! Halation: light that returns from the back of the base.
 
+#[cfg(test)]
+mod exactness;
 mod field;
 mod gaussians;
 mod spread;
