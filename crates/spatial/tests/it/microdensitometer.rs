@@ -65,9 +65,9 @@ fn figure_at(stock: &Stock, green: f64) -> PerLayer<(f64, f64)> {
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
         if (figure.green.at(middle).0 < green) == (stock.kind() == StockKind::Negative) {
-            low = middle
+            low = middle;
         } else {
-            high = middle
+            high = middle;
         }
     }
     figure.map(|layer| layer.at(low))
