@@ -171,3 +171,25 @@ pub const CONSTANTS: [Constant; 10] = [
 pub(crate) fn checked(what: &'static str, value: f64, allowed: [f64; 2], unit: &'static str) -> Result<f64, Error> {
     if (allowed[0]..=allowed[1]).contains(&value) { Ok(value) } else { Err(Error::range(what, value, allowed, unit)) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_document_has_every_number() {
+        let document = include_str!("../../../docs/spatial.md");
+        for c in CONSTANTS {
+            assert!((c.low..=c.high).contains(&c.value), "{}", c.name);
+            let origin = match c.origin {
+                ConstantOrigin::Sheet => "sheet",
+                ConstantOrigin::Physics => "physics",
+                ConstantOrigin::Guess => "guess",
+            };
+            let value = format!("{} {}", c.value, c.unit);
+            let row =
+                format!("| {} | {} | {} | {} | {origin} | {} |", c.name, value.trim_end(), c.low, c.high, c.source);
+            assert!(document.contains(&row), "docs/spatial.md lacks\n{row}");
+        }
+    }
+}

@@ -121,7 +121,6 @@ fn grain_is_left_out_of_small_pictures() {
             let sheet = AmountGranularity::of_stock(&film.stock).unwrap();
             let grain = Grain::new(sheet, frame.pitch(), GrainSettings::default()).unwrap();
             let decision = grain_decision(&grain, &frame, &greys, &film);
-            println!("{decision}");
             decision.verdict()
         };
         assert_eq!(verdict(limit * 6 / 5), Verdict::Visible, "{id}");

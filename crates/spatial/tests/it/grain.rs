@@ -137,3 +137,33 @@ fn settings_out_of_range_are_refused() {
         assert!(Grain::new(sheet.clone(), pitch, settings).is_err());
     }
 }
+
+#[test]
+fn a_picture_of_twice_the_size_shrunk_has_the_same_grain() {
+    // Standard deviation of L*; with the mean kept at both sizes.
+    let film = Film::new("kodak-5219");
+    let side = 160;
+    for stops in [-2.0, 0.0, 2.0] {
+        let grey = film.grey(stops).map(|a| a as f32);
+        let scatter = |width: usize, shrink: usize| {
+            let pitch = FilmFormat::Super35.pitch(width, 1.0).unwrap();
+            let grain = grain("kodak-5219", pitch, 2.5).keeping_mean(&film.greys(), &film);
+            let picture = field(&grain, Frame::new([side * shrink; 2], pitch).unwrap(), grey);
+            let light = |x: usize, y: usize| film.display_linear(picture.row(y).map(|l| f64::from(l[x])));
+            let mut all = Vec::new();
+            for i in 0..side * side {
+                let (x, y) = (i % side * shrink, i / side * shrink);
+                let mut mean = [0.0; 3];
+                for j in 0..shrink * shrink {
+                    let light = light(x + j % shrink, y + j / shrink);
+                    mean = std::array::from_fn(|k| mean[k] + light[k] / (shrink * shrink) as f64);
+                }
+                all.push(film.lab(mean)[0]);
+            }
+            let mean = all.iter().sum::<f64>() / all.len() as f64;
+            (all.iter().map(|l| (l - mean).powi(2)).sum::<f64>() / all.len() as f64).sqrt()
+        };
+        let (small, large) = (scatter(2048, 1), scatter(4096, 2));
+        assert!((large / small - 1.0).abs() < 0.04, "{stops}: {large} for {small}");
+    }
+}

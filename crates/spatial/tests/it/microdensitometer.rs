@@ -129,7 +129,6 @@ fn the_picture_measures_as_the_sheet_says() {
     ];
     for (id, densities) in films {
         let found = largest(id, densities, &[24.0, 48.0, 96.0]);
-        println!("{id}: 24, 48, 96 um {found:.4?}");
         // The grid itself blurs an aperture of 24 um: 3 % low.
         assert!(found[1].abs() < 0.03 && found[2].abs() < 0.05 && found[0].abs() < 0.04, "{id}: {found:?}");
     }

@@ -1,5 +1,5 @@
 use onelight_film::LogExposure;
-use onelight_spatial::{FilmFormat, Frame, MtfFit, Pitch, Planes, Sharpness, SpatialStage, Taps};
+use onelight_spatial::{FilmFormat, Finish, Frame, MtfFit, Pitch, Planes, Sharpness, SpatialStage, Taps};
 
 use crate::film::{Film, reference, stock};
 
@@ -155,4 +155,54 @@ fn a_sine_wave_of_light_comes_back_as_the_sheet_says() {
             }
         }
     }
+}
+
+#[test]
+fn a_picture_of_twice_the_size_shrunk_is_as_sharp() {
+    // A scene that a lens has drawn: nothing finer than three pixels of the larger size.
+    let film = Film::new("kodak-5219");
+    let sharpness = Sharpness::of_stock(&film.stock).unwrap();
+    let (width, height) = (240, 160);
+    let scene = |x: f64, y: f64| {
+        let edge = 1.0 / (1.0 + (-(x - 0.3 * y - 170.0) / 1.6).exp());
+        let wave = (x / 5.0).sin() * (y / 9.0).cos() + ((x + 2.0 * y) / 40.0).sin();
+        [1.0, 0.8, 0.6].map(|c| c * (0.1 + 3.0 * edge) * (0.6 * wave).exp2())
+    };
+    let develop = |e: [f32; 3]| film.develop(e);
+    let light = |planes: &Planes, x: usize, y: usize| film.display_linear(planes.row(y).map(|l| f64::from(l[x])));
+    let shown = |size: usize, with: bool| {
+        let pixels = [width * size, height * size];
+        let frame = Frame::new(pixels, FilmFormat::Super35.pitch(2048 * size, 1.0).unwrap()).unwrap();
+        let mut exposures = Planes::new(pixels[0], 0..pixels[1]).unwrap();
+        for y in 0..pixels[1] {
+            for x in 0..pixels[0] {
+                let points = (0..16 / (size * size)).map(|i| {
+                    let n = 4 / size;
+                    let at = |p: usize, i: usize| (p as f64 + (i as f64 + 0.5) / n as f64) * 2.0 / size as f64;
+                    scene(at(x, i % n), at(y, i / n))
+                });
+                let sum = points.fold([0.0; 3], |s: [f64; 3], p| std::array::from_fn(|k| s[k] + p[k]));
+                let row = exposures.row_mut(y);
+                row.into_iter().zip(sum).for_each(|(row, s)| row[x] = (s * (size * size) as f64 / 16.0) as f32);
+            }
+        }
+        let stage = SpatialStage::new(frame);
+        let stage = if with { stage.with_sharpness(&sharpness) } else { stage };
+        stage.amounts(&exposures, None, 0..pixels[1], &develop).unwrap()
+    };
+    let mean_difference = |with: bool| {
+        let (small, large) = (shown(1, with), shown(2, with));
+        // Away from the edges of the picture.
+        let inside = (16..height - 16).flat_map(|y| (16..width - 16).map(move |x| (x, y)));
+        let difference = |(x, y): (usize, usize)| {
+            let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| light(&large, 2 * x + i, 2 * y + j));
+            let shrunk = std::array::from_fn(|k| four.iter().map(|light| light[k]).sum::<f64>() / 4.0);
+            film.difference(shrunk, light(&small, x, y))
+        };
+        let all: Vec<f64> = inside.map(difference).collect();
+        all.iter().sum::<f64>() / all.len() as f64
+    };
+    let (with, without) = (mean_difference(true), mean_difference(false));
+    // Averaging light after the film is not averaging it before, with or without sharpness.
+    assert!(with < 0.05 && with < without + 0.02, "{with}, without sharpness {without}");
 }
