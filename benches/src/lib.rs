@@ -7,6 +7,7 @@
 
 pub mod buffers;
 mod calendar;
+mod described_look;
 mod error;
 mod form;
 #[cfg(feature = "gpu")]
@@ -19,6 +20,7 @@ pub mod report;
 pub mod sheet_fidelity;
 pub mod stability;
 
+pub use described_look::DescribedLook;
 pub use error::Error;
 pub use form::Form;
 pub use look::{Forms, NEGATIVE, PLAIN_SIZE, PROCESSES, REVERSAL, SHAPER, film, plain, shaper};

@@ -54,7 +54,7 @@ enum Command {
     Fixtures(command::fixtures::Arguments),
     /// Turn lux, lumen and kelvin into W/m^2 RGB, and say what a camera makes of it
     Light(command::light::Arguments),
-    /// Put the looks and switches of the talk side by side: contact sheets and a page
+    /// Put the looks and switches of the talk side by side, and a look of your own beside the films: contact sheets and a page
     Compare(command::compare::Arguments),
     /// Check the layers of the workspace against ARCHITECTURE.md
     Tidy(command::tidy::Arguments),

@@ -75,6 +75,12 @@ impl ChosenLook {
         Ok(self.films.as_ref().map_or_else(|| self.process.look(), |films| self.process.look_with(films))?)
     }
 
+    /// As the measurements take it.
+    #[cfg(feature = "measure")]
+    pub(crate) fn described(&self) -> onelight_benches::DescribedLook {
+        onelight_benches::DescribedLook { process: self.process.clone(), films: self.films.clone() }
+    }
+
     /// Asks the film in the camera; beside a tone mapping, the one that was named for it.
     pub(crate) fn of_camera<T>(&self, ask: impl Fn(&Stock) -> T) -> Result<T> {
         match &self.films {
@@ -208,7 +214,7 @@ impl LookArguments {
     /// Whether the command line says which films to use.
     #[cfg(feature = "measure")]
     pub(crate) fn names_film(&self) -> bool {
-        self.look.is_some() || self.camera.is_some()
+        self.look.is_some() || self.camera.is_some() || self.print.is_some()
     }
 
     /// Whether the command line or a description says how the display codes.

@@ -6,9 +6,8 @@ use std::path::{Component, Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use onelight::{OwnSheet, SheetText, Stock};
-use sha2::{Digest, Sha256};
 
-/// The files of a sheet, in the order that the digest takes them.
+/// The files of a sheet.
 const FILES: [&str; 4] = ["stock.toml", "sensitivity.csv", "characteristic.csv", "dye_density.csv"];
 /// More bytes than any of them may have; the library has limits of its own.
 const MAX_BYTES: u64 = 4 << 20;
@@ -50,15 +49,15 @@ pub(crate) fn read(folder: &Path) -> Result<OwnStock> {
     let silver = stock_toml.contains("silver") && !folder.join(FILES[3]).exists();
     let dye_density_csv = if silver { String::new() } else { text(&folder, FILES[3])? };
     let id = variant.map_or_else(|| id.to_owned(), |variant| format!("{id}@{variant}"));
-    let stock = Stock::parse(&SheetText {
+    let text = SheetText {
         id: &id,
         stock_toml: &stock_toml,
         sensitivity_csv: &sensitivity_csv,
         characteristic_csv: &characteristic_csv,
         dye_density_csv: &dye_density_csv,
-    })?;
-    let sha256 = digest([&stock_toml, &sensitivity_csv, &characteristic_csv, &dye_density_csv]);
-    let sheet = OwnSheet { id: stock.id().to_owned(), path: path.to_owned(), sha256 };
+    };
+    let stock = Stock::parse(&text)?;
+    let sheet = OwnSheet { id: stock.id().to_owned(), ..OwnSheet::new(path, &text) };
     Ok(OwnStock { stock, sheet })
 }
 
@@ -72,14 +71,6 @@ fn text(folder: &Path, name: &str) -> Result<String> {
         bail!("{shown}: more than {MAX_BYTES} bytes, expected a data sheet");
     }
     Ok(text)
-}
-
-/// What `sha256sum stock.toml sensitivity.csv characteristic.csv dye_density.csv | sha256sum` says of these texts; black and white
-/// has three of them.
-fn digest(texts: [&str; 4]) -> String {
-    let files = FILES.iter().zip(texts).filter(|(_, text)| !text.is_empty());
-    let lines = files.map(|(name, text)| format!("{}  {name}\n", hex(&Sha256::digest(text))));
-    hex(&Sha256::digest(lines.collect::<String>()))
 }
 
 /// Bytes as hexadecimal digits.
@@ -153,12 +144,5 @@ mod tests {
         assert_eq!(seen_from(&root, mine), "mine");
         assert_eq!(seen_from(&root.join("mine"), mine), ".");
         assert_eq!(seen_from(&root.join("gone"), mine), mine);
-    }
-
-    /// The digest was made by `sha256sum` of GNU coreutils.
-    #[test]
-    fn the_digest_is_that_of_sha256sum() {
-        let texts = ["a\n", "b\n", "c\n", "d\n"];
-        assert_eq!(digest(texts), "f58aa57f78cd2898a864f5e9a2ba77c3dc61b9e276ed80185cc1ad7f8563dc16");
     }
 }

@@ -1,8 +1,10 @@
 //! Speed and error of every form of a look.
 
+use std::sync::Arc;
+
 use onelight::certify::Certifier;
 use onelight::lut::{SamplingLaw, Search};
-use onelight::{Process, Reference, Word, WorkingSpace, stock};
+use onelight::{Films, Process, Reference, Word, WorkingSpace};
 use serde::Serialize;
 
 use super::difference::Difference;
@@ -10,6 +12,7 @@ use super::forms::{self, Kind, Made};
 use super::frame::Frame;
 use super::scope::Scope;
 use super::stopwatch::{Pass, Timing, copying, interleaved, mapping};
+use crate::described_look::DescribedLook;
 use crate::error::Result;
 use crate::progress::{OnProgress, Steps};
 
@@ -59,6 +62,7 @@ pub(super) struct Look {
 /// A process with its film and its forms, before anything is timed.
 pub(super) struct Prepared {
     pub(super) process: Process,
+    pub(super) films: Arc<Films>,
     title: String,
     pub(super) film: Reference,
     pub(super) made: Vec<Made>,
@@ -76,8 +80,8 @@ pub(super) fn law(scope: Scope) -> SamplingLaw {
 
 impl Prepared {
     /// Makes all forms of a process and measures their differences from the film.
-    pub(super) fn new(process: &Process, scope: Scope, progress: OnProgress<'_>) -> Result<Self> {
-        let film = process.compile()?;
+    pub(super) fn new(described: &DescribedLook, scope: Scope, progress: OnProgress<'_>) -> Result<Self> {
+        let (film, films) = (described.compile()?, described.films()?);
         let steps = Steps::new("making forms", forms::steps(scope), progress);
         let made = forms::all(&film, scope, || steps.step())?;
         drop(steps);
@@ -93,7 +97,8 @@ impl Prepared {
             steps.step();
         }
         drop(steps);
-        Ok(Self { process: process.clone(), title: title(process)?, film, made, errors })
+        let (process, title) = (described.process.clone(), title(&described.process, &films));
+        Ok(Self { process, films, title, film, made, errors })
     }
 
     /// What to time: one pass for each group of forms that share a time, then the film itself.
@@ -131,11 +136,9 @@ impl Prepared {
 }
 
 /// `KODAK VISION3 250D 5207 on KODAK 2383, neutral aim`
-fn title(process: &Process) -> Result<String> {
-    let camera = stock(process.film()?.camera.id())?;
-    let print = process.print().map(|print| stock(print.id())).transpose()?;
-    let on = print.map_or_else(String::new, |print| format!(" on {}", print.name()));
-    Ok(format!("{}{on}, {} aim", camera.name(), process.aim().word()))
+fn title(process: &Process, films: &Films) -> String {
+    let on = films.print.as_ref().map_or_else(String::new, |print| format!(" on {}", print.name()));
+    format!("{}{on}, {} aim", films.camera.name(), process.aim().word())
 }
 
 /// Times all forms of all looks together; the last time is that of a copy.

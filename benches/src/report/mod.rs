@@ -25,7 +25,6 @@ mod words;
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
-use onelight::Process;
 use serde_json::{Value, json};
 
 use self::contents::Contents;
@@ -36,6 +35,7 @@ use self::measure::{Prepared, law, timed};
 pub use self::peers::Elsewhere;
 pub use self::scope::Scope;
 use self::studies::{Studies, growth};
+use crate::described_look::DescribedLook;
 use crate::error::{Error, Result};
 use crate::progress::OnProgress;
 
@@ -64,11 +64,16 @@ impl Listener<'_> {
 ///
 /// # Errors
 /// If a look does not compile or there is none, or if the system gives no threads.
-pub fn measure(processes: &[Process], scope: Scope, elsewhere: Elsewhere, listener: Listener<'_>) -> Result<Report> {
+pub fn measure(
+    described: &[DescribedLook],
+    scope: Scope,
+    elsewhere: Elsewhere,
+    listener: Listener<'_>,
+) -> Result<Report> {
     let progress = listener.progress;
     let mut prepared = Vec::new();
-    for process in processes {
-        prepared.push(listener.time("forms", || Prepared::new(process, scope, progress))?);
+    for described in described {
+        prepared.push(listener.time("forms", || Prepared::new(described, scope, progress))?);
     }
     let frame = listener.time("picture", || Frame::new(scope.scene_size()))?;
     let rounds = scope.rounds();

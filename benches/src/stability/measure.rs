@@ -11,6 +11,7 @@ use super::cases::{Case, Order, Strand, general};
 use super::gpu::Card;
 use super::hard_inputs;
 use super::implementations::{Kind, Output, outputs};
+use crate::described_look::DescribedLook;
 use crate::error::Result;
 use crate::form::Form;
 
@@ -111,12 +112,12 @@ struct Measured {
     seen: Vec<Seen>,
 }
 
-/// A process measured in every implementation; a call of `progress` for each of [`STEPS`].
+/// A look measured in every implementation; a call of `progress` for each of [`STEPS`].
 ///
 /// # Errors
-/// If the process does not compile, or the card cannot develop.
-pub fn rows(process: &Process, card: Option<&Card>, progress: impl Fn()) -> Result<Vec<Row>> {
-    let look = process.look()?;
+/// If the look does not compile, or the card cannot develop.
+pub fn rows(described: &DescribedLook, card: Option<&Card>, progress: impl Fn()) -> Result<Vec<Row>> {
+    let (process, look) = (&described.process, described.look()?);
     let forms = FORMS.iter().map(|form| Form::baked(&look, &Recipe::of(*form))).collect::<Result<Vec<_>>>()?;
     progress();
     let subject = Subject::new(process, look, &forms)?;

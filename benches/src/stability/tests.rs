@@ -6,7 +6,7 @@ use super::measure::{Quantity, Row, each, largest, neighbours, not_finite, rows}
 
 /// Everything, and no limit broken.
 fn kept(process: &Process) -> Vec<Row> {
-    let rows = rows(process, None, || ()).unwrap();
+    let rows = rows(&process.clone().into(), None, || ()).unwrap();
     for row in &rows {
         for (quantity, worst) in &row.found {
             let most = limit(row, *quantity).unwrap_or(f64::INFINITY);

@@ -297,6 +297,11 @@ fn a_data_sheet_of_ones_own_is_a_film_like_any_other() {
     for form in ["structured", "direct"] {
         done(folder, &["bake", "--quick", "--camera", "mine", "--form", form, "--out", form]);
     }
+    // Measured as any other.
+    let talk = done(folder, &["compare", "--camera", "mine", "--sheets", "calibration", "--out", "compare"]);
+    assert!(talk.contains("sheet: mine_kodak-2383"), "{talk}");
+    let hard = done(folder, &["stability", "--camera", "mine", "--print", "my-print", "--out", "stability"]);
+    assert!(hard.contains("mine_my-print"), "{hard}");
     // A changed sheet is refused, and taken where it is asked for.
     let sheet = folder.join("mine/stock.toml");
     fs::write(&sheet, fs::read_to_string(&sheet).unwrap() + "# changed\n").unwrap();

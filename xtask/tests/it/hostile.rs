@@ -172,8 +172,10 @@ fn strip() -> Vec<u8> {
 #[test]
 fn what_is_within_the_limits_takes_what_they_say() {
     let folder = folder("version = 1\napproach = \"clip\"\n");
-    let side = 3000;
+    let side = 2000;
     let samples = (side * side * 6 / 1024) as u64;
+    // The program, its threads and a band of a small picture, in KiB: a bound that a few more copies of the samples would break.
+    let program = 60_000;
     // As the reader counts: blocks while they are unpacked, and the row that waits.
     for (compression, times) in [
         (Compression::ZIP16, 4),
@@ -186,7 +188,7 @@ fn what_is_within_the_limits_takes_what_they_say() {
         fs::write(folder.path().join("a.exr"), one_tile(side, compression)).unwrap();
         let Ended { code, sentence, peak } = develop(folder.path(), "a.exr");
         assert_eq!(code, Some(0), "{compression}: {sentence}");
-        assert!(peak < times * samples + SMALL, "{compression}: {peak} KiB of {samples} KiB of samples");
+        assert!(peak < times * samples + program, "{compression}: {peak} KiB of {samples} KiB of samples");
         println!("{compression}: {peak} KiB, samples {samples} KiB");
         fs::remove_file(folder.path().join("out.png")).unwrap();
     }

@@ -92,22 +92,22 @@ fn stop_amid(child: &mut Child, output: &Path, signal_name: &str) {
 #[cfg(unix)]
 #[test]
 fn a_killed_job_goes_on_to_the_same_files() {
-    let folder = with_frames(100, [64, 36]);
+    let folder = with_frames(60, [64, 36]);
     let folder = folder.path();
     for extension in ["png", "exr"] {
         let [out, other] = ["out", "other"].map(|name| format!("{name}/shot.####.{extension}"));
         let undisturbed = job(folder, &other, &["--json"]).env("RAYON_NUM_THREADS", "4").output().unwrap();
-        assert_eq!(counts(&undisturbed), [100, 0, 0]);
+        assert_eq!(counts(&undisturbed), [60, 0, 0]);
 
         let mut child = job(folder, &out, &[]).spawn().unwrap();
         stop_amid(&mut child, &folder.join("out"), "-KILL");
         assert_eq!(child.wait().unwrap().code(), None);
         let left = files(&folder.join("out"));
-        assert!(left.len() < 100 && left.keys().any(|name| name.ends_with(".part")), "{:?}", left.keys());
+        assert!(left.len() < 60 && left.keys().any(|name| name.ends_with(".part")), "{:?}", left.keys());
 
-        let again = job(folder, &out, &["--frames", "1-100", "--json"]).env("RAYON_NUM_THREADS", "3").output().unwrap();
+        let again = job(folder, &out, &["--frames", "1-60", "--json"]).env("RAYON_NUM_THREADS", "3").output().unwrap();
         let [developed, already_done, failed] = counts(&again);
-        assert!(again.status.success() && already_done >= 10 && developed + already_done == 100 && failed == 0);
+        assert!(again.status.success() && already_done >= 10 && developed + already_done == 60 && failed == 0);
         assert!(same(&files(&folder.join("out")), &files(&folder.join("other"))));
         ["out", "other"].iter().for_each(|name| empty(&folder.join(name)));
     }

@@ -2,7 +2,7 @@ use onelight::film::{PerLayer, Tail};
 use onelight::lut::{DirectForm, DirectParts, DirectPrint};
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Basis, SpectralShape};
-use onelight::{DirectSettings, Nodes, stock};
+use onelight::{DirectSettings, Nodes};
 use serde::Serialize;
 
 use super::colours::{Colours, Miss};
@@ -105,7 +105,7 @@ fn sensors(prepared: &Prepared, step_nm: u16) -> Result<Matrix3<f64>> {
     let shape = SpectralShape::new(visible.first_nm() as u16, visible.last_nm() as u16, step_nm)?;
     let weights: Vec<f64> = shape.trapezoid_weights_nm().collect();
     let mut sensors = Matrix3::zeros();
-    for (i, layer) in stock(prepared.process.film()?.camera.id())?.sensitivity().to_array().into_iter().enumerate() {
+    for (i, layer) in prepared.films.camera.sensitivity().to_array().into_iter().enumerate() {
         let sensitivity = layer.on(visible, Tail::LogLinear)?;
         for k in 0..3 {
             let light = basis.reflectance(k).iter().zip(basis.white().values());

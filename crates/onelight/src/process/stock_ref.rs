@@ -1,6 +1,7 @@
-use std::fmt;
+use std::fmt::{self, Write as _};
 
-use onelight_film::{Image, StockKind};
+use onelight_film::{Image, SheetText, StockKind};
+use sha2::{Digest, Sha256};
 
 use crate::error::Error;
 use crate::stocks::stock;
@@ -30,6 +31,17 @@ pub enum StockRef {
 }
 
 /// Where a data sheet of one's own is, and how to tell whether it is still the same.
+///
+/// ```
+/// use onelight::{FilmProcess, OwnSheet, SheetText, StockRef};
+/// # let [stock_toml, sensitivity_csv, characteristic_csv, dye_density_csv] = ["a\n", "b\n", "c\n", "d\n"];
+/// // The four files of the folder as they are, read by whoever opens paths.
+/// let text = SheetText { id: "mine", stock_toml, sensitivity_csv, characteristic_csv, dye_density_csv };
+/// let sheet = OwnSheet::new("films/mine", &text);
+/// assert!(sheet.sha256.starts_with("f58aa57f"));
+/// let film = FilmProcess { camera: StockRef::Own(sheet), ..FilmProcess::default() };
+/// assert_eq!(film.camera.id(), "mine");
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct OwnSheet {
     /// The stock's id, the name of its folder.
@@ -39,6 +51,31 @@ pub struct OwnSheet {
     /// SHA-256 of the sheet's files in 64 hexadecimal digits: what
     /// `sha256sum stock.toml sensitivity.csv characteristic.csv dye_density.csv | sha256sum` says in the folder.
     pub sha256: String,
+}
+
+impl OwnSheet {
+    /// The sheet in the folder `path`, with the digest of its text. [`Stock::parse`](crate::Stock::parse) says whether it is a sheet.
+    #[must_use]
+    pub fn new(path: impl Into<String>, text: &SheetText<'_>) -> Self {
+        let files = [
+            ("stock.toml", text.stock_toml),
+            ("sensitivity.csv", text.sensitivity_csv),
+            ("characteristic.csv", text.characteristic_csv),
+            ("dye_density.csv", text.dye_density_csv),
+        ];
+        // Black and white has no dyes, and no file of them.
+        let files = files.iter().filter(|(_, text)| !text.is_empty());
+        let lines: String = files.map(|(name, text)| format!("{}  {name}\n", sha256(text))).collect();
+        Self { id: text.id.to_owned(), path: path.into(), sha256: sha256(&lines) }
+    }
+}
+
+/// In hexadecimal digits.
+fn sha256(text: &str) -> String {
+    Sha256::digest(text).iter().fold(String::new(), |mut digits, byte| {
+        let _ = write!(digits, "{byte:02x}");
+        digits
+    })
 }
 
 impl StockRef {
@@ -97,5 +134,25 @@ pub(crate) fn default_print(camera: &str) -> Result<Option<&'static str>, Error>
         kind @ (StockKind::Print | StockKind::Paper | StockKind::ReversalPrint) => {
             Err(Error::not_for_a_camera(camera, kind))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The digest was made by `sha256sum` of GNU coreutils.
+    #[test]
+    fn the_digest_is_that_of_sha256sum() {
+        let text = SheetText {
+            id: "mine",
+            stock_toml: "a\n",
+            sensitivity_csv: "b\n",
+            characteristic_csv: "c\n",
+            dye_density_csv: "d\n",
+        };
+        let expected = "f58aa57f78cd2898a864f5e9a2ba77c3dc61b9e276ed80185cc1ad7f8563dc16";
+        assert_eq!(OwnSheet::new("films/mine", &text).sha256, expected);
+        assert_ne!(OwnSheet::new("films/mine", &SheetText { dye_density_csv: "e\n", ..text }).sha256, expected);
     }
 }

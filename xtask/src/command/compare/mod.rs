@@ -8,11 +8,14 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::command::develop::exposure::Exposure;
+use crate::look::LookArguments;
 #[cfg(feature = "measure")]
 pub(crate) use measured::run;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
+    #[command(flatten)]
+    look: LookArguments,
     /// Scene-linear pictures to show the looks on, besides the fixture scene and the ColorChecker
     #[arg(value_name = "EXR")]
     pictures: Vec<PathBuf>,

@@ -4,7 +4,7 @@ use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use onelight::Process;
+use onelight_benches::DescribedLook;
 use onelight_benches::report::{self, Elsewhere, Listener, Scope};
 
 use super::Arguments;
@@ -31,7 +31,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let bars = bars();
     let time = |part, taken| clock.borrow_mut().add(part, taken);
     let listener = Listener { progress: &bars, time: &time };
-    let found = report::measure(&processes(&arguments.look)?, scope, elsewhere, listener)?;
+    let found = report::measure(&looks(&arguments.look)?, scope, elsewhere, listener)?;
     let clock = clock.into_inner();
     let found = found.with_clock(clock.sentence());
     let mut files = AtomicFiles::in_folder(&folder);
@@ -76,11 +76,11 @@ fn text_of(path: &Path) -> Result<Option<(String, String)>> {
 }
 
 /// The look asked for; without a word about films, the default negative and a reversal film.
-fn processes(arguments: &LookArguments) -> Result<Vec<Process>> {
-    let process = arguments.chosen()?.process;
+fn looks(arguments: &LookArguments) -> Result<Vec<DescribedLook>> {
+    let chosen = arguments.chosen()?;
     if arguments.names_film() {
-        return Ok(vec![process]);
+        return Ok(vec![chosen.described()]);
     }
-    let reversal = with_films(&process, (REVERSAL.to_owned(), None), |_| {})?;
-    Ok(vec![process, reversal])
+    let reversal = with_films(&chosen.process, (REVERSAL.to_owned(), None), |_| {})?;
+    Ok(vec![chosen.described(), reversal.into()])
 }

@@ -1,5 +1,6 @@
 use anyhow::Result;
-use onelight::{Process, StockKind, stock, stock_ids};
+use onelight::{StockKind, stock, stock_ids};
+use onelight_benches::DescribedLook;
 use onelight_benches::stability::{Card, Contents, STEPS, rows as measured};
 
 use super::Arguments;
@@ -14,12 +15,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         Some(folder) => folders::make(folder)?,
         None => folders::output("")?,
     };
-    let processes = processes(arguments)?;
+    let looks = looks(arguments)?;
     let card = Card::open()?;
-    let progress = bar("measuring", (processes.len() * STEPS) as u64);
+    let progress = bar("measuring", (looks.len() * STEPS) as u64);
     let mut rows = Vec::new();
-    for process in &processes {
-        rows.extend(clock.time("measure", || measured(process, card.as_ref(), || progress.inc(1)))?);
+    for look in &looks {
+        rows.extend(clock.time("measure", || measured(look, card.as_ref(), || progress.inc(1)))?);
     }
     progress.finish_and_clear();
     let contents = Contents { card: card.as_ref().map(|card| card.name().to_owned()), rows: &rows };
@@ -34,17 +35,21 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
 }
 
 /// The look named; else those of the README, or all.
-fn processes(arguments: &Arguments) -> Result<Vec<Process>> {
-    let base = arguments.look.chosen()?.process;
+fn looks(arguments: &Arguments) -> Result<Vec<DescribedLook>> {
+    let chosen = arguments.look.chosen()?;
     if !arguments.all {
-        return if arguments.look.names_film() { Ok(vec![base]) } else { of_the_readme(&base) };
+        if arguments.look.names_film() {
+            return Ok(vec![chosen.described()]);
+        }
+        return Ok(of_the_readme(&chosen.process)?.into_iter().map(DescribedLook::from).collect());
     }
     let of_kind = |kind| stock_ids().filter(move |id| stock(id).is_ok_and(|stock| stock.kind() == kind));
-    let process =
-        |camera: &str, print: Option<&str>| with_films(&base, (camera.to_owned(), print.map(str::to_owned)), |_| {});
-    let reversal = of_kind(StockKind::Reversal).map(|camera| process(camera, None));
+    let look = |camera: &str, print: Option<&str>| {
+        with_films(&chosen.process, (camera.to_owned(), print.map(str::to_owned)), |_| {}).map(DescribedLook::from)
+    };
+    let reversal = of_kind(StockKind::Reversal).map(|camera| look(camera, None));
     let negatives = of_kind(StockKind::Negative)
         .flat_map(|camera| of_kind(StockKind::Print).map(move |print| (camera, print)))
-        .map(|(camera, print)| process(camera, Some(print)));
+        .map(|(camera, print)| look(camera, Some(print)));
     reversal.chain(negatives).collect()
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use anyhow::Result;
 use onelight::spectra::{DisplayDifference, RgbSpace};
-use onelight::{Look, ProcessKeys};
+use onelight::{Films, Look, ProcessKeys};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -18,11 +18,17 @@ pub(super) type Developed = Result<Arc<Vec<[f32; 3]>>, String>;
 /// Looks and pictures made so far.
 #[derive(Default)]
 pub(super) struct Darkroom {
+    /// The stocks of the look that names data sheets of the user's.
+    films: Option<Arc<Films>>,
     looks: HashMap<String, Result<Arc<Look>, String>>,
     pictures: HashMap<(String, i32), Developed>,
 }
 
 impl Darkroom {
+    pub(super) fn new(films: Option<Arc<Films>>) -> Self {
+        Self { films, ..Self::default() }
+    }
+
     /// Pictures of another frame are of no use.
     pub(super) fn change_frame(&mut self) {
         self.pictures.clear();
@@ -34,7 +40,12 @@ impl Darkroom {
         self.looks
             .entry(key)
             .or_insert_with(|| {
-                keys.process().and_then(|process| process.look()).map(Arc::new).map_err(|error| error.to_string())
+                let own = keys.camera_sheet().or(keys.print_sheet()).and(self.films.as_ref());
+                let look = match own {
+                    Some(films) => keys.process_with(films).and_then(|process| process.look_with(films)),
+                    None => keys.process().and_then(|process| process.look()),
+                };
+                look.map(Arc::new).map_err(|error| error.to_string())
             })
             .clone()
     }

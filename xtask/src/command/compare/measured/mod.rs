@@ -8,7 +8,7 @@ mod plan;
 use std::fmt::Write as _;
 
 use anyhow::Result;
-use onelight::ProcessKeys;
+use onelight::{Process, ProcessKeys};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -27,7 +27,9 @@ const BANDING: &str = "banding";
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let mut clock = Clock::default();
-    let sheets = chosen(&arguments.sheets)?;
+    let own = arguments.look.chosen()?.described();
+    let own = (own.process != Process::default()).then_some(own);
+    let sheets = chosen(&arguments.sheets, own.as_ref().map(|own| &own.process))?;
     let folder = match &arguments.out {
         Some(folder) => folders::make(folder)?,
         None => folders::output("compare")?,
@@ -41,7 +43,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         frames.push(user);
     }
     let chart = frame::chart_colours()?;
-    let mut darkroom = Darkroom::default();
+    let mut darkroom = Darkroom::new(own.and_then(|own| own.films));
     let mut sections = Vec::new();
     let progress = bar("comparing", (frames.len() * sheets.len()) as u64);
     for frame in &frames {
@@ -76,8 +78,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
 }
 
 /// The sheets of these names; all of them for none.
-fn chosen(names: &[String]) -> Result<Vec<Sheet>> {
-    let sheets = plan::sheets()?;
+fn chosen(names: &[String], own: Option<&Process>) -> Result<Vec<Sheet>> {
+    let sheets = plan::sheets(own)?;
     let known: Vec<&str> = sheets.iter().map(|sheet| sheet.name).chain([BANDING]).collect();
     if let Some(unknown) = names.iter().find(|name| !known.contains(&name.as_str())) {
         anyhow::bail!("no sheet is called {unknown:?}, expected one of {}", known.join(", "));
@@ -194,7 +196,7 @@ mod tests {
         let docs = include_str!("../../../../../docs/talk.md");
         let (chart, mut darkroom) = (frame::chart_colours().unwrap(), Darkroom::default());
         let mut count = 0;
-        for sheet in plan::sheets().unwrap() {
+        for sheet in plan::sheets(None).unwrap() {
             for shot in sheet.shots.iter().filter(|shot| shot.ev == 0) {
                 let Some(beside) = shot.beside else { continue };
                 let (plain, turned) = (darkroom.look(&sheet.shots[beside].keys), darkroom.look(&shot.keys));
@@ -210,9 +212,9 @@ mod tests {
 
     #[test]
     fn sheets_are_chosen_by_name() {
-        assert_eq!(chosen(&["infrared".to_owned()]).unwrap().len(), 1);
-        assert!(chosen(&[BANDING.to_owned()]).unwrap().is_empty());
-        let error = chosen(&["infared".to_owned()]).map(|_| ()).unwrap_err().to_string();
+        assert_eq!(chosen(&["infrared".to_owned()], None).unwrap().len(), 1);
+        assert!(chosen(&[BANDING.to_owned()], None).unwrap().is_empty());
+        let error = chosen(&["infared".to_owned()], None).map(|_| ()).unwrap_err().to_string();
         assert!(error.contains("infared") && error.contains("infrared"), "{error}");
     }
 }

@@ -52,7 +52,7 @@ fn usual(camera: &str) -> Result<ProcessKeys, Error> {
 }
 
 /// A film with its name in the talk.
-type Named = (&'static str, ProcessKeys);
+type Named = (String, ProcessKeys);
 
 /// The five films of the talk, each in its usual process.
 pub(super) fn films() -> Result<Vec<Named>, Error> {
@@ -63,12 +63,16 @@ pub(super) fn films() -> Result<Vec<Named>, Error> {
         ("F-reversal Velvia 50", "fuji-velvia-50"),
         ("F-reversal 2 Provia 100F", "fuji-provia-100f"),
     ];
-    films.into_iter().map(|(name, camera)| Ok((name, usual(camera)?))).collect()
+    films.into_iter().map(|(name, camera)| Ok((name.to_owned(), usual(camera)?))).collect()
 }
 
-/// Every comparison of the talk, and each switch.
-pub(super) fn sheets() -> Result<Vec<Sheet>, Error> {
-    let films = films()?;
+/// Letters of a name that fit on a tile beside the rest of a caption.
+const NAME_LETTERS: usize = 27;
+
+/// Every comparison of the talk, and each switch; a look of the user's joins the films.
+pub(super) fn sheets(own: Option<&Process>) -> Result<Vec<Sheet>, Error> {
+    let mut films = films()?;
+    films.extend(own.map(|own| (own.name().chars().take(NAME_LETTERS).collect(), ProcessKeys::from(own))));
     let negative = ProcessKeys::default();
     let (k_reversal, f_reversal) = (usual("kodak-ektachrome-100")?, usual("fuji-velvia-50")?);
     Ok(vec![
@@ -100,7 +104,7 @@ fn exposures(films: &[Named]) -> Sheet {
         ("Reinhard, luminance", Approach::ReinhardLuminance),
         ("clipped", Approach::Clip),
     ];
-    let rows = rows.map(|(name, approach)| (name, baseline(approach)));
+    let rows = rows.map(|(name, approach)| (name.to_owned(), baseline(approach)));
     for (row, (name, process)) in rows.iter().chain(films).enumerate() {
         for (column, ev) in EXPOSURES.into_iter().enumerate() {
             let beside = (row > 0).then_some(column);
@@ -280,7 +284,7 @@ mod tests {
 
     #[test]
     fn every_shot_has_a_caption_of_its_own_and_something_to_compare_with() {
-        let sheets = sheets().unwrap();
+        let sheets = sheets(None).unwrap();
         let names: HashSet<&str> = sheets.iter().map(|sheet| sheet.name).collect();
         assert_eq!(names.len(), sheets.len());
         for sheet in &sheets {
@@ -297,7 +301,7 @@ mod tests {
     /// The two impossible printers are shown as such; everything else works.
     #[test]
     fn only_what_physics_forbids_does_not_compile() {
-        let refused: Vec<String> = sheets()
+        let refused: Vec<String> = sheets(None)
             .unwrap()
             .iter()
             .flat_map(|sheet| &sheet.shots)
