@@ -1,5 +1,7 @@
 //! What a file says of its picture before the pixels.
 
+use crate::transfer::Transfer;
+
 /// What a file says of its picture before the pixels, and what a writer needs to know of it.
 ///
 /// ```
@@ -21,6 +23,10 @@ pub struct Description {
     pub windows: Windows,
     /// The colour space of the pixels where the file names it.
     pub primaries: Option<Chromaticities>,
+    /// How the values become light where the file says it. Values are given as they are. Writers do not look at it.
+    pub transfer: Option<Transfer>,
+    /// What in the file says so, as a noun for the user, such as "the ICC profile `Display P3`".
+    pub colours_said_by: Option<String>,
     /// What kind of file it is.
     pub source: Source,
     /// What the reader chose among several layers or leaves out, a sentence each, for the user. Writers do not look at them.
@@ -31,7 +37,17 @@ impl Description {
     /// A picture of one window at the origin, of no named primaries.
     pub fn new(width: usize, height: usize, channels: Channels, source: Source) -> Self {
         let windows = Windows::of_size(width, height);
-        Self { width, height, channels, windows, primaries: None, source, notes: Vec::new() }
+        Self {
+            width,
+            height,
+            channels,
+            windows,
+            primaries: None,
+            transfer: None,
+            colours_said_by: None,
+            source,
+            notes: Vec::new(),
+        }
     }
 
     /// Pixels of the data window.
@@ -123,7 +139,7 @@ pub struct Chromaticities {
 ///
 /// /// Whether the numbers are linear light, where nobody says otherwise.
 /// fn is_linear(source: Source) -> bool {
-///     matches!(source, Source::Exr | Source::Tiff { samples: TiffSamples::Float, .. })
+///     matches!(source, Source::Exr | Source::RadianceHdr | Source::Tiff { samples: TiffSamples::Float, .. })
 /// }
 /// assert!(is_linear(Source::Exr) && !is_linear(Source::Png { bits: 16 }));
 /// ```
@@ -136,6 +152,10 @@ pub enum Source {
         /// Bits of a sample: 8 or 16. Fewer are widened to 8.
         bits: u8,
     },
+    /// JPEG of 8 bits: a finished picture, display-coded.
+    Jpeg,
+    /// Radiance: linear light.
+    RadianceHdr,
     /// TIFF: integers are display-coded as a rule, floats linear.
     Tiff {
         /// Bits of a sample: 8, 16, 32 or 64.

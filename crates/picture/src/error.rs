@@ -3,10 +3,13 @@
 mod class;
 #[cfg(feature = "exr")]
 mod exr;
+#[cfg(feature = "hdr")]
+mod hdr;
+#[cfg(feature = "jpeg")]
+mod jpeg;
 mod limit;
 #[cfg(feature = "png")]
 mod png;
-#[cfg(feature = "tiff")]
 mod tiff;
 mod write;
 
@@ -15,11 +18,13 @@ use std::{error, fmt, io};
 use self::class::Class;
 #[cfg(feature = "exr")]
 pub(crate) use self::exr::{BlockProblem, ExrProblem, PixelProblem, message as exr_message};
+#[cfg(feature = "hdr")]
+pub(crate) use self::hdr::HdrProblem;
+#[cfg(feature = "jpeg")]
+pub(crate) use self::jpeg::JpegProblem;
 #[cfg(feature = "png")]
 pub(crate) use self::png::PngProblem;
-#[cfg(feature = "tiff")]
-pub(crate) use self::tiff::TiffProblem;
-pub(crate) use self::{limit::LimitProblem, write::WriteProblem};
+pub(crate) use self::{limit::LimitProblem, tiff::TiffProblem, write::WriteProblem};
 
 /// Why a picture cannot be read or written.
 ///
@@ -34,9 +39,9 @@ pub(crate) use self::{limit::LimitProblem, write::WriteProblem};
 ///
 /// use onelight_picture::{Limits, open};
 ///
-/// let error = open(Cursor::new(b"\xff\xd8\xff\xe0 and so on"), "cat.exr", Limits::default()).unwrap_err();
+/// let error = open(Cursor::new(b"GIF89a and so on"), "cat.exr", Limits::default()).unwrap_err();
 /// assert!(error.is_unsupported());
-/// assert!(error.to_string().starts_with("cat.exr: found a JPEG picture by its first bytes, expected "));
+/// assert!(error.to_string().starts_with("cat.exr: found a GIF picture by its first bytes, expected "));
 ///
 /// let error = open(Cursor::new(b"II\x2a\0"), "cat.tif", Limits::default()).unwrap_err();
 /// assert!(error.is_damaged());
@@ -90,7 +95,10 @@ impl Error {
             Kind::Exr(problem) => problem.class(),
             #[cfg(feature = "png")]
             Kind::Png(problem) => problem.class(),
-            #[cfg(feature = "tiff")]
+            #[cfg(feature = "hdr")]
+            Kind::Hdr(problem) => problem.class(),
+            #[cfg(feature = "jpeg")]
+            Kind::Jpeg(problem) => problem.class(),
             Kind::Tiff(problem) => problem.class(),
             Kind::Write(problem) => problem.class(),
         }
@@ -117,7 +125,11 @@ pub(crate) enum Kind {
     Exr(ExrProblem),
     #[cfg(feature = "png")]
     Png(PngProblem),
-    #[cfg(feature = "tiff")]
+    #[cfg(feature = "hdr")]
+    Hdr(HdrProblem),
+    #[cfg(feature = "jpeg")]
+    Jpeg(JpegProblem),
+    /// EXIF is a TIFF too.
     Tiff(TiffProblem),
     Write(WriteProblem),
 }
@@ -159,7 +171,20 @@ impl From<PngProblem> for Error {
     }
 }
 
-#[cfg(feature = "tiff")]
+#[cfg(feature = "hdr")]
+impl From<HdrProblem> for Error {
+    fn from(problem: HdrProblem) -> Self {
+        Kind::Hdr(problem).into()
+    }
+}
+
+#[cfg(feature = "jpeg")]
+impl From<JpegProblem> for Error {
+    fn from(problem: JpegProblem) -> Self {
+        Kind::Jpeg(problem).into()
+    }
+}
+
 impl From<TiffProblem> for Error {
     fn from(problem: TiffProblem) -> Self {
         Kind::Tiff(problem).into()
@@ -200,7 +225,10 @@ impl fmt::Display for Error {
             Kind::Exr(problem) => problem.fmt(f),
             #[cfg(feature = "png")]
             Kind::Png(problem) => problem.fmt(f),
-            #[cfg(feature = "tiff")]
+            #[cfg(feature = "hdr")]
+            Kind::Hdr(problem) => problem.fmt(f),
+            #[cfg(feature = "jpeg")]
+            Kind::Jpeg(problem) => problem.fmt(f),
             Kind::Tiff(problem) => problem.fmt(f),
             Kind::Write(problem) => problem.fmt(f),
         }

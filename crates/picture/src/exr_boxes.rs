@@ -9,7 +9,10 @@ use crate::error::{Error, ExrProblem};
 /// Longest name of an attribute or type, with the zero at its end.
 const NAME_BYTES: u64 = 257;
 
-/// Refuses a part whose data window or display window is empty. `reader` is left anywhere.
+/// The highest number of a compression that the decoder knows.
+const LAST_COMPRESSION: u8 = 11;
+
+/// Refuses a part whose data window or display window is empty, or that is packed in a way of later than the decoder. `reader` is left anywhere.
 ///
 /// A header that cannot be followed passes: its own reader has the words for that.
 pub(crate) fn check<R: BufRead + Seek>(mut reader: R) -> Result<(), Error> {
@@ -19,6 +22,14 @@ pub(crate) fn check<R: BufRead + Seek>(mut reader: R) -> Result<(), Error> {
     }
     let several_parts = start[5] & 0x10 != 0;
     while let Some(attribute) = next(&mut reader) {
+        if attribute.name == b"compression\0" && attribute.byte > LAST_COMPRESSION {
+            // OpenEXR 3.5 added Zstandard.
+            let found = match attribute.byte {
+                12 | 13 => "Zstandard".to_owned(),
+                number => format!("the unknown number {number} as"),
+            };
+            return Err(ExrProblem::Compression { found }.into());
+        }
         // A nameless attribute ends a header; of several, the last is followed by one more.
         let what = match &attribute.name[..] {
             b"dataWindow\0" => "the data window",
@@ -38,11 +49,13 @@ pub(crate) fn check<R: BufRead + Seek>(mut reader: R) -> Result<(), Error> {
 struct Attribute {
     name: Vec<u8>,
     corners: [i32; 4],
+    /// The value of an attribute of one byte.
+    byte: u8,
 }
 
 fn next<R: BufRead + Seek>(reader: &mut R) -> Option<Attribute> {
     let name = word(reader)?;
-    let mut corners = [0; 4];
+    let (mut corners, mut byte) = ([0; 4], 0);
     if name != b"\0" {
         let kind = word(reader)?;
         let mut size = [0; 4];
@@ -53,11 +66,15 @@ fn next<R: BufRead + Seek>(reader: &mut R) -> Option<Attribute> {
             reader.read_exact(&mut bytes).ok()?;
             let (words, _) = bytes.as_chunks::<4>();
             corners.iter_mut().zip(words).for_each(|(corner, word)| *corner = i32::from_le_bytes(*word));
+        } else if size == 1 {
+            let mut bytes = [0];
+            reader.read_exact(&mut bytes).ok()?;
+            [byte] = bytes;
         } else {
             reader.seek(SeekFrom::Current(i64::from(u32::try_from(size).ok()?))).ok()?;
         }
     }
-    Some(Attribute { name, corners })
+    Some(Attribute { name, corners, byte })
 }
 
 /// Bytes up to a zero, with it.

@@ -1,5 +1,7 @@
 //! Which channels of an OpenEXR file are the picture.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use exr::meta::{
     attribute::{ChannelDescription, SampleType},
     header::Header,
@@ -8,22 +10,57 @@ use exr::meta::{
 use crate::{
     decoder_message::one_line,
     error::{Error, ExrProblem},
+    selection::{PartChoice, Selection},
 };
 
-/// Most channel names that a message lists.
+/// Most names that a message lists.
 const NAMES_LISTED: usize = 24;
 /// Most bytes of those names together, so that the message stays one that can be read.
 const NAME_BYTES_LISTED: usize = 600;
+
+/// Layers that are the finished picture wherever they are, the likeliest first: Blender's, Arnold's and Nuke's, V-Ray's,
+/// RenderMan's, Octane's.
+const BEAUTY: [&str; 5] = ["combined", "beauty", "rgba", "C", "color"];
+/// What layers hold that are not a picture, or a part of its light alone. A word of three letters and more counts within
+/// others, as `DiffCol` and `CryptoObject00` have it.
+const NOT_A_PICTURE: [&str; 24] = [
+    "albedo",
+    "ao",
+    "cryp",
+    "depth",
+    "diff",
+    "emit",
+    "env",
+    "gloss",
+    "id",
+    "index",
+    "light",
+    "mask",
+    "mist",
+    "motion",
+    "n",
+    "normal",
+    "occlusion",
+    "p",
+    "position",
+    "shadow",
+    "spec",
+    "trans",
+    "uv",
+    "vector",
+];
 
 /// The part and the channels to read.
 #[derive(Debug)]
 pub(crate) struct Layout {
     /// Which of the file's parts this is, from 0.
     pub(crate) part: usize,
-    /// The channels red, green and blue; the same thrice for a grey picture.
+    /// The channels red, green and blue, or X, Y and Z; the same thrice for a grey picture.
     pub(crate) rgb: [Plane; 3],
     /// The channel of coverage (alpha), if the part has one.
     pub(crate) alpha: Option<Plane>,
+    /// Whether the channels are the CIE's X, Y and Z.
+    pub(crate) is_xyz: bool,
     /// What was chosen among several.
     pub(crate) notes: Vec<String>,
 }
@@ -37,19 +74,22 @@ pub(crate) struct Plane {
     pub(crate) samples: SampleType,
 }
 
-/// Chooses the first flat part with R, G and B (without a layer name if it can be, else the first layer that has all
-/// three), and if there is none the first with a luminance channel Y.
-pub(crate) fn choose(parts: &[Header]) -> Result<Layout, Error> {
+/// Chooses the likeliest picture of a file, among what `selection` leaves: colour before grey, no layer name before one that
+/// says beauty before any other, earlier parts before later ones.
+pub(crate) fn choose(parts: &[Header], selection: &Selection) -> Result<Layout, Error> {
+    let wanted_part = wanted_part(parts, selection)?;
     let flat = || parts.iter().enumerate().filter(|(_, part)| !part.deep);
-    let coloured = flat().find_map(|(index, part)| Some((index, find(part, Set::Rgb)?)));
-    let found = coloured.or_else(|| flat().find_map(|(index, part)| Some((index, find(part, Set::Grey)?))));
-    let Some((index, group)) = found else {
-        if parts.iter().any(|part| part.deep) {
-            return Err(ExrProblem::DeepData.into());
-        }
-        return Err(ExrProblem::Channels { found: names(parts) }.into());
+    let all: Vec<Group> = flat().flat_map(|(index, part)| groups(index, part, parts.len() > 1)).collect();
+    let named = selection.layer.is_some() || wanted_part.is_some();
+    let is_wanted = |group: &&Group| {
+        wanted_part.is_none_or(|part| group.part == part)
+            && selection.layer.as_ref().is_none_or(|layer| group.is_called(layer))
+            && (named || !group.is_not_a_picture())
     };
-    let part = &parts[index];
+    let Some(group) = all.iter().filter(is_wanted).min_by_key(|group| group.rank()) else {
+        return Err(nothing_found(parts, &all, selection));
+    };
+    let part = &parts[group.part];
     if let Some(channel) = part.channels.list.iter().find(|channel| channel.sampling.0 != 1 || channel.sampling.1 != 1)
     {
         let step = [channel.sampling.0, channel.sampling.1];
@@ -57,43 +97,104 @@ pub(crate) fn choose(parts: &[Header]) -> Result<Layout, Error> {
     }
 
     let mut notes = Vec::new();
-    if parts.len() > 1 {
-        let name = part
-            .own_attributes
-            .layer_name
-            .as_ref()
-            .map_or(String::new(), |name| format!(" (`{}`)", one_line(&name.to_string())));
-        notes.push(format!("read part {}{name} of {} parts", index + 1, parts.len()));
+    let others = all.iter().filter(|other| (other.part, &other.layer) != (group.part, &group.layer));
+    let others = names_of(others);
+    let others = if others.is_empty() { String::new() } else { format!("; there are also {}", listed(&others)) };
+    let in_part = (parts.len() > 1).then(|| {
+        let name = part_name(part).map_or(String::new(), |name| format!(" (`{}`)", one_line(&name)));
+        format!("part {}{name} of {} parts", group.part + 1, parts.len())
+    });
+    match (in_part, &group.layer[..]) {
+        (None, "") if others.is_empty() => {}
+        (None, "") => notes.push(format!("read the channels without a layer name{others}")),
+        (None, layer) => notes.push(format!("read the layer `{}`{others}", one_line(layer))),
+        (Some(part), "") => notes.push(format!("read {part}{others}")),
+        (Some(part), layer) => notes.push(format!("read the layer `{}` of {part}{others}", one_line(layer))),
     }
-    if !group.layer.is_empty() {
-        notes.push(format!(
-            "read the layer `{}`, as there are no channels without a layer name that make a picture",
-            one_line(&group.layer)
-        ));
+    match group.set {
+        Set::Rgb => {}
+        Set::Xyz => notes.push("took the channels X, Y and Z for the light's CIE XYZ".to_owned()),
+        Set::Grey => notes.push("read the luminance channel Y as grey".to_owned()),
+        Set::Lone => notes.push(format!("read the only channel, `{}`, as grey", one_line(&group.channel))),
     }
-    if group.set == Set::Grey {
-        notes.push("read the luminance channel Y as grey".to_owned());
-    }
-    Ok(Layout { part: index, rgb: group.rgb, alpha: group.alpha, notes })
+    let Group { part, rgb, alpha, set, .. } = *group;
+    Ok(Layout { part, rgb, alpha, is_xyz: set == Set::Xyz, notes })
 }
 
-/// What channels make a picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// The part that is asked for, from 0.
+fn wanted_part(parts: &[Header], selection: &Selection) -> Result<Option<usize>, Error> {
+    let found = match &selection.part {
+        None => return Ok(None),
+        Some(PartChoice::Number(number)) => number.checked_sub(1).filter(|index| *index < parts.len()),
+        Some(PartChoice::Name(name)) => {
+            parts.iter().position(|part| part_name(part).is_some_and(|own| own.eq_ignore_ascii_case(name)))
+        }
+    };
+    let asked = || selection.part.as_ref().map(ToString::to_string).unwrap_or_default();
+    let names = || {
+        let named = |(index, part): (usize, &Header)| match part_name(part) {
+            Some(name) => format!("{} (`{}`)", index + 1, one_line(&name)),
+            None => (index + 1).to_string(),
+        };
+        listed(&parts.iter().enumerate().map(named).collect::<Vec<_>>())
+    };
+    found.map(Some).ok_or_else(|| ExrProblem::NoPart { asked: one_line(&asked()), found: names() }.into())
+}
+
+/// Why there is no picture.
+fn nothing_found(parts: &[Header], all: &[Group], selection: &Selection) -> Error {
+    let layers = names_of(all.iter());
+    if let Some(layer) = &selection.layer {
+        let found = if layers.is_empty() { "no layer".to_owned() } else { listed(&layers) };
+        return ExrProblem::NoLayer { asked: one_line(layer), found }.into();
+    }
+    if parts.iter().any(|part| part.deep) {
+        return ExrProblem::DeepData.into();
+    }
+    let channels: Vec<String> = parts.iter().flat_map(|part| &part.channels.list).map(|c| c.name.to_string()).collect();
+    let has = |name: &str| channels.iter().any(|channel| channel == name);
+    if has("RY") || has("BY") {
+        return ExrProblem::LuminanceChroma.into();
+    }
+    if layers.is_empty() {
+        let short: Vec<String> = channels.iter().map(|name| one_line(name)).collect();
+        return ExrProblem::Channels { found: listed(&short) }.into();
+    }
+    ExrProblem::NoBeauty { found: listed(&layers) }.into()
+}
+
+fn part_name(part: &Header) -> Option<String> {
+    part.own_attributes.layer_name.as_ref().map(ToString::to_string)
+}
+
+/// What channels make a picture, the likeliest first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Set {
     Rgb,
+    Xyz,
     Grey,
+    Lone,
 }
 
 /// The channels of one layer that make a picture.
+#[derive(Debug, Clone)]
 struct Group {
+    part: usize,
+    /// The name of the part, where there are several.
+    part_name: Option<String>,
     layer: String,
     set: Set,
     rgb: [Plane; 3],
+    /// The name of the first channel.
+    channel: String,
     alpha: Option<Plane>,
 }
 
-/// The first layer of `part` that has the `set`, the one without a name before all others.
-fn find(part: &Header, set: Set) -> Option<Group> {
+/// The names of red, green and blue that programs write, in any case of letters.
+const RED_GREEN_BLUE: [[&str; 3]; 2] = [["r", "g", "b"], ["red", "green", "blue"]];
+
+/// What may be a picture in a part: of each layer the likeliest channels.
+fn groups(index: usize, part: &Header, several: bool) -> Vec<Group> {
     let mut bytes_before = 0;
     let channels: Vec<Channel> = part
         .channels
@@ -105,20 +206,95 @@ fn find(part: &Header, set: Set) -> Option<Group> {
             channel
         })
         .collect();
-    let layers = std::iter::once("").chain(channels.iter().map(|channel| channel.layer.as_str()));
-    layers.into_iter().find_map(|layer| {
-        let plane = |name: &str| {
-            let mut own = channels.iter().filter(|channel| channel.layer == layer);
-            own.find(|channel| channel.name == name).map(|channel| channel.plane)
+    // Those without a layer name come first, the others in the order of the file.
+    let mut layers: Vec<(&str, Vec<&Channel>)> = vec![("", Vec::new())];
+    let mut places = BTreeMap::from([("", 0)]);
+    for channel in &channels {
+        let place = *places.entry(channel.layer.as_str()).or_insert(layers.len());
+        if place == layers.len() {
+            layers.push((&channel.layer, Vec::new()));
+        }
+        layers[place].1.push(channel);
+    }
+    let coloured = channels.iter().filter(|channel| !channel.is("a") && !channel.is("alpha")).count();
+    let group = |(layer, own): (&str, Vec<&Channel>)| {
+        let find = |name: &str| own.iter().copied().find(|channel| channel.is(name));
+        let exactly = |name: &str| own.iter().copied().find(|channel| channel.name == name);
+        let three = |names: [&str; 3]| Some([find(names[0])?, find(names[1])?, find(names[2])?]);
+        let coordinates = || Some([exactly("X")?, exactly("Y")?, exactly("Z")?]);
+        let luminance = || exactly("Y").filter(|_| exactly("RY").is_none() && exactly("BY").is_none());
+        let (set, found) = if let Some(found) = RED_GREEN_BLUE.into_iter().find_map(three) {
+            (Set::Rgb, found)
+        } else if let Some(found) = coordinates() {
+            // With a layer name they are directions and places: a normal, a position.
+            if !layer.is_empty() {
+                return None;
+            }
+            (Set::Xyz, found)
+        } else if let Some(found) = luminance() {
+            (Set::Grey, [found; 3])
+        } else if coloured == 1 {
+            (Set::Lone, [own.iter().copied().find(|channel| !channel.is("a") && !channel.is("alpha"))?; 3])
+        } else {
+            return None;
         };
-        let rgb = match set {
-            Set::Rgb => [plane("R")?, plane("G")?, plane("B")?],
-            // Luminance with chroma is colour in another form, not grey.
-            Set::Grey if plane("RY").is_some() || plane("BY").is_some() => return None,
-            Set::Grey => [plane("Y")?; 3],
-        };
-        Some(Group { layer: layer.to_owned(), set, rgb, alpha: plane("A") })
-    })
+        Some(Group {
+            part: index,
+            part_name: part_name(part).filter(|_| several),
+            layer: layer.to_owned(),
+            set,
+            rgb: found.map(|channel| channel.plane),
+            channel: found[0].name.clone(),
+            alpha: find("a").or_else(|| find("alpha")).map(|channel| channel.plane),
+        })
+    };
+    layers.into_iter().filter_map(group).collect()
+}
+
+impl Group {
+    /// The words of its part's and its layer's name.
+    fn words(&self) -> impl Iterator<Item = &str> {
+        let names = [self.part_name.as_deref().unwrap_or_default(), &self.layer];
+        names.into_iter().flat_map(|name| name.split(|c: char| !c.is_alphanumeric())).filter(|word| !word.is_empty())
+    }
+
+    fn beauty(&self) -> Option<usize> {
+        // A single letter has many meanings, of which only the capital is this one.
+        let is = |word: &str, beauty: &str| word == beauty || (beauty.len() > 1 && word.eq_ignore_ascii_case(beauty));
+        BEAUTY.iter().position(|beauty| self.words().any(|word| is(word, beauty)))
+    }
+
+    /// Whether its name says that it is something else than the finished picture.
+    fn is_not_a_picture(&self) -> bool {
+        let is = |word: &str, not: &str| word == not || (not.len() > 2 && word.contains(not));
+        let words = || self.words().map(str::to_lowercase);
+        self.beauty().is_none() && words().any(|word| NOT_A_PICTURE.iter().any(|not| is(&word, not)))
+    }
+
+    /// Smallest for the likeliest picture. Colour comes before grey.
+    fn rank(&self) -> (bool, usize, Set, usize) {
+        let nameless = self.layer.is_empty() && self.part_name.is_none();
+        let name = if nameless { 0 } else { self.beauty().map_or(BEAUTY.len() + 1, |place| place + 1) };
+        (self.set >= Set::Grey, name, self.set, self.part)
+    }
+
+    /// Whether a user may mean it by `name`: its layer, the last word of that, or its part.
+    fn is_called(&self, name: &str) -> bool {
+        let last = self.layer.rsplit('.').next().unwrap_or_default();
+        let part = self.part_name.as_deref().filter(|_| self.layer.is_empty());
+        [Some(self.layer.as_str()), Some(last), part].into_iter().flatten().any(|own| own.eq_ignore_ascii_case(name))
+    }
+
+    /// Its name for a message.
+    fn shown(&self) -> String {
+        match (&self.part_name, &self.layer[..]) {
+            (None, "") => "channels without a layer name".to_owned(),
+            (None, layer) => format!("`{}`", one_line(layer)),
+            (Some(part), "") => format!("`{}`", one_line(part)),
+            (Some(part), layer) if layer.starts_with(part.as_str()) => format!("`{}`", one_line(layer)),
+            (Some(part), layer) => format!("`{}` in part `{}`", one_line(layer), one_line(part)),
+        }
+    }
 }
 
 /// A channel with its name taken apart.
@@ -138,18 +314,28 @@ impl Channel {
             plane: Plane { bytes_before, samples: described.sample_type },
         }
     }
+
+    /// Whether that is its name, whatever the case of letters.
+    fn is(&self, name: &str) -> bool {
+        self.name.eq_ignore_ascii_case(name)
+    }
 }
 
-fn names(parts: &[Header]) -> String {
-    let all = || parts.iter().flat_map(|part| &part.channels.list);
+/// The names of groups, each once.
+fn names_of<'a>(groups: impl Iterator<Item = &'a Group>) -> Vec<String> {
+    let mut seen = BTreeSet::new();
+    groups.map(Group::shown).filter(|name| seen.insert(name.clone())).collect()
+}
+
+/// Names in one line, the first of many.
+fn listed(names: &[String]) -> String {
     let mut bytes = 0;
-    let short = |name: &String| {
+    let short = |name: &&String| {
         bytes += name.len();
         bytes <= NAME_BYTES_LISTED
     };
-    let listed: Vec<String> =
-        all().take(NAMES_LISTED).map(|channel| one_line(&channel.name.to_string())).take_while(short).collect();
-    let more = all().count() - listed.len();
+    let listed: Vec<&str> = names.iter().take(NAMES_LISTED).take_while(short).map(String::as_str).collect();
+    let more = names.len() - listed.len();
     match (listed.is_empty(), more) {
         (true, 0) => "(none)".to_owned(),
         (true, more) => format!("({more} of long names)"),

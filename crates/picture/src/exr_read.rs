@@ -8,7 +8,11 @@ use std::io::{Seek, SeekFrom};
 
 use exr::{
     compression::Compression,
-    meta::{BlockDescription, MetaData, attribute::IntegerBounds, header::Header},
+    meta::{
+        BlockDescription, MetaData,
+        attribute::{AttributeValue, IntegerBounds},
+        header::Header,
+    },
 };
 
 use crate::{
@@ -18,9 +22,11 @@ use crate::{
     exr_bands::{self, ExrBands},
     exr_blocks::Blocks,
     exr_boxes, exr_layout,
+    file_colours::{FileColours, of_interop_id},
     input::Input,
     limits::{Limits, check_claim, check_shown},
     panic_to_error::panic_to_error,
+    selection::Selection,
 };
 
 /// Opens a picture in an OpenEXR file of `length` bytes.
@@ -28,6 +34,7 @@ pub(crate) fn open<'a>(
     mut reader: Input<'a>,
     length: u64,
     limits: &Limits,
+    selection: &Selection,
 ) -> Result<(Description, Box<dyn Bands + 'a>), Error> {
     exr_boxes::check(&mut reader)?;
     reader.seek(SeekFrom::Start(0))?;
@@ -35,7 +42,7 @@ pub(crate) fn open<'a>(
         .map_err(|error| ExrProblem::HeaderUnreadable(exr_message(&error)))?;
     let tables_at = reader.stream_position()?;
 
-    let layout = exr_layout::choose(&meta.headers)?;
+    let layout = exr_layout::choose(&meta.headers, selection)?;
     let header = &meta.headers[layout.part];
     check(header, length, limits)?;
     panic_to_error(|| MetaData::validate(std::slice::from_ref(header), false))?
@@ -45,20 +52,15 @@ pub(crate) fn open<'a>(
     if windows.pixel_aspect != header.shared_attributes.pixel_aspect {
         notes.push("took the pixels for square, as the file's pixel aspect ratio cannot be".to_owned());
     }
-    let description = Description {
+    let mut description = Description {
         width: header.layer_size.0,
         height: header.layer_size.1,
         channels: if layout.alpha.is_some() { Channels::Rgba } else { Channels::Rgb },
         windows,
-        primaries: header.shared_attributes.chromaticities.map(|xy| Chromaticities {
-            red: [xy.red.0, xy.red.1],
-            green: [xy.green.0, xy.green.1],
-            blue: [xy.blue.0, xy.blue.1],
-            white: [xy.white.0, xy.white.1],
-        }),
-        source: Source::Exr,
         notes,
+        ..Description::new(1, 1, Channels::Rgb, Source::Exr)
     };
+    colours(header, layout.is_xyz).describe(&mut description);
     let blocks = Blocks::open(reader, length, tables_at, &meta, layout.part)?;
     Ok((description, Box::new(ExrBands::new(blocks, meta, layout))))
 }
@@ -96,7 +98,38 @@ fn expansion(compression: Compression) -> Result<u64, Error> {
         | Compression::B44
         | Compression::B44A => Ok(1 << 11),
         Compression::DWAA(_) | Compression::DWAB(_) => Ok(1 << 15),
-        Compression::HTJ2K32 | Compression::HTJ2K256 => Err(ExrProblem::Htj2k.into()),
+        Compression::HTJ2K32 | Compression::HTJ2K256 => {
+            Err(ExrProblem::Compression { found: "HTJ2K".to_owned() }.into())
+        }
+    }
+}
+
+/// What the header says of the colours: by the channels' names, by chromaticities, by the interchange name.
+fn colours(header: &Header, is_xyz: bool) -> FileColours {
+    let chromaticities = header.shared_attributes.chromaticities.map(|xy| Chromaticities {
+        red: [xy.red.0, xy.red.1],
+        green: [xy.green.0, xy.green.1],
+        blue: [xy.blue.0, xy.blue.1],
+        white: [xy.white.0, xy.white.1],
+    });
+    let others = || header.own_attributes.other.iter().chain(&header.shared_attributes.other);
+    let named = others().find_map(|(name, value)| match value {
+        AttributeValue::Text(text) if name.eq("colorInteropID") => of_interop_id(&text.to_string()),
+        _ => None,
+    });
+    let transfer = named.as_ref().map(|(_, transfer)| transfer.clone());
+    if is_xyz {
+        let said_by = "the names of its channels".to_owned();
+        return FileColours { primaries: Some(Chromaticities::XYZ), transfer, said_by };
+    }
+    match (chromaticities, named) {
+        (Some(primaries), _) => {
+            FileColours { primaries: Some(primaries), transfer, said_by: "its chromaticities".to_owned() }
+        }
+        (None, Some((primaries, _))) => {
+            FileColours { primaries: Some(primaries), transfer, said_by: "its colorInteropID".to_owned() }
+        }
+        (None, None) => FileColours::default(),
     }
 }
 

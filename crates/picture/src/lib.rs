@@ -58,7 +58,7 @@
 //! Deep data, subsampled channels, HTJ2K; CMYK and JPEG-compressed TIFF, camera raw; ICC profiles; animation; writing TIFF;
 //! conversion between colour spaces; paths.
 #![cfg_attr(
-    not(all(feature = "exr", feature = "png", feature = "tiff")),
+    not(all(feature = "exr", feature = "hdr", feature = "icc", feature = "jpeg", feature = "png", feature = "tiff")),
     allow(
         dead_code,
         unused_imports,
@@ -77,6 +77,8 @@ mod display;
 #[cfg(feature = "exr")]
 mod dwa;
 mod error;
+#[cfg(any(feature = "jpeg", feature = "png"))]
+mod exif;
 #[cfg(feature = "exr")]
 mod exr_bands;
 #[cfg(feature = "exr")]
@@ -89,16 +91,25 @@ mod exr_layout;
 mod exr_read;
 #[cfg(feature = "exr")]
 mod exr_write;
+mod file_colours;
+#[cfg(feature = "hdr")]
+mod hdr_read;
+#[cfg(feature = "icc")]
+mod icc;
 mod input;
+#[cfg(feature = "jpeg")]
+mod jpeg_read;
 mod limits;
 mod metadata_text;
+mod orientation;
 mod panic_to_error;
 #[cfg(feature = "png")]
 mod png_read;
 #[cfg(feature = "png")]
 mod png_write;
 mod reader;
-#[cfg(feature = "tiff")]
+mod selection;
+#[cfg(any(feature = "jpeg", feature = "png", feature = "tiff"))]
 mod tiff_directory;
 #[cfg(feature = "tiff")]
 mod tiff_header;
@@ -108,6 +119,7 @@ mod tiff_pages;
 mod tiff_read;
 #[cfg(feature = "tiff")]
 mod tiff_unpack;
+mod transfer;
 mod whole_picture;
 
 pub use band::{Band, BandView, ReadingMemory, RowMut};
@@ -121,7 +133,9 @@ pub use metadata_text::text_of_complete_picture;
 pub use panic_to_error::silence_panics_while_reading;
 #[cfg(feature = "png")]
 pub use png_write::{ColourTag, PngBits, PngSettings, PngTransfer, write_png};
-pub use reader::{PictureReader, open, readable_formats};
+pub use reader::{PictureReader, open, open_selected, readable_formats};
+pub use selection::{PartChoice, Selection};
+pub use transfer::{Curve, Transfer};
 pub use whole_picture::Picture;
 
 /// The README's example, as a test.

@@ -1,16 +1,20 @@
 //! Reading PNG of 1 to 16 bits: grey, palette and RGB, with and without alpha.
 
-use png::{BitDepth, ColorType, Decoder, DecodingError, Reader, Transformations};
+use png::{BitDepth, ColorType, Decoder, DecodingError, Info, Reader, ScaledFloat, Transformations};
 use rayon::prelude::*;
 
 use crate::{
     band::{Band, Bands, ReadingMemory, RowMut, blocks_in_band},
     decoder_message::one_line,
-    description::{Channels, Description, Source},
+    description::{Channels, Chromaticities, Description, Source},
     error::{Error, PngProblem},
+    exif,
+    file_colours::{FileColours, of_code_points},
     input::Input,
     limits::{Limits, PNG_WORKING_BYTES, allocate, check_claim},
+    orientation::upright,
     panic_to_error::panic_to_error,
+    transfer::Transfer,
 };
 
 /// More than Deflate can give for one byte.
@@ -29,7 +33,7 @@ fn start<'a>(reader: Input<'a>, length: u64, limits: &Limits) -> Result<(Descrip
     let mut decoder = Decoder::new_with_limits(reader, png::Limits { bytes: PNG_WORKING_BYTES });
     decoder.set_transformations(Transformations::EXPAND);
     decoder.set_ignore_text_chunk(true);
-    decoder.set_ignore_iccp_chunk(true);
+    decoder.set_ignore_iccp_chunk(cfg!(not(feature = "icc")));
     let info = decoder.read_header_info().map_err(problem)?;
     let (width, height) = (u64::from(info.width), u64::from(info.height));
     limits.check_size("the picture", width, height)?;
@@ -51,11 +55,72 @@ fn start<'a>(reader: Input<'a>, length: u64, limits: &Limits) -> Result<(Descrip
     if interlaced {
         limits.check_bytes("an interlaced PNG", [width, height], (row_bytes as u64).saturating_mul(height))?;
     }
-    let description = Description::new(width as usize, height as usize, channels, Source::Png { bits });
+    let mut description = Description::new(width as usize, height as usize, channels, Source::Png { bits });
+    let exif = reader.info().exif_metadata.as_ref().map(|block| exif::read(block)).unwrap_or_default();
+    if let Some(colours) = colours(reader.info(), &mut description.notes).or(exif.colours) {
+        colours.describe(&mut description);
+    }
     let (width, height) = (width as usize, height as usize);
     let rows =
         PngBands { reader, width, height, channels, samples, bits, row_bytes, interlaced, bytes: Vec::new(), next: 0 };
-    Ok((description, Box::new(rows)))
+    upright(exif.orientation, description, Box::new(rows), limits)
+}
+
+/// What the chunks of a PNG say of its colours, the most telling first, as the PNG specification orders them.
+fn colours(info: &Info<'_>, notes: &mut Vec<String>) -> Option<FileColours> {
+    let said = |primaries, transfer, what: &str| {
+        Some(FileColours { primaries, transfer, said_by: format!("the PNG's {what}") })
+    };
+    if let Some(points) = &info.coding_independent_code_points {
+        let (primaries, transfer) = of_code_points(points.color_primaries, points.transfer_function);
+        if !points.is_video_full_range_image {
+            notes.push("took the PNG's values for full range, although its cICP says video range".to_owned());
+        }
+        if primaries.is_some() || transfer.is_some() {
+            return said(primaries, transfer, "cICP");
+        }
+        notes.push(format!(
+            "left out the PNG's cICP, of which the code points {} and {} are not known",
+            points.color_primaries, points.transfer_function
+        ));
+    }
+    #[cfg(feature = "icc")]
+    if let Some(profile) = &info.icc_profile {
+        match crate::icc::colours(profile) {
+            Ok(colours) => return Some(colours),
+            Err(note) => notes.push(note),
+        }
+    }
+    if info.srgb.is_some() {
+        return said(Some(Chromaticities::BT709), Some(Transfer::Srgb), "sRGB");
+    }
+    let primaries = info.chrm_chunk.map(|points| {
+        let xy = |(x, y): (ScaledFloat, ScaledFloat)| [x.into_value(), y.into_value()];
+        let (red, green, blue, white) = (xy(points.red), xy(points.green), xy(points.blue), xy(points.white));
+        let found = Chromaticities { red, green, blue, white };
+        [Chromaticities::BT709, Chromaticities::P3_D65, Chromaticities::BT2020, Chromaticities::ADOBE_RGB]
+            .into_iter()
+            .find(|named| named.is_near(&found))
+            .unwrap_or(found)
+    });
+    let transfer = info.gama_chunk.map(ScaledFloat::into_scaled).filter(|gamma| *gamma > 0).map(|gamma| match gamma {
+        // What writers of sRGB give, as the chunk has no room for its curve.
+        45_450..=45_460 => Transfer::Srgb,
+        99_995..=100_005 => Transfer::Linear,
+        gamma => Transfer::Power(power(100_000.0 / gamma as f32)),
+    });
+    match (primaries, transfer) {
+        (None, None) => None,
+        (primaries, None) => said(primaries, None, "cHRM"),
+        (None, transfer) => said(None, transfer, "gAMA"),
+        (primaries, transfer) => said(primaries, transfer, "gAMA and cHRM"),
+    }
+}
+
+/// The power that a rounded inverse stands for: one decimal where that is meant.
+fn power(power: f32) -> f32 {
+    let round = (power * 10.0).round() / 10.0;
+    if (power - round).abs() < 2e-4 { round } else { power }
 }
 
 /// The rows of a PNG. An interlaced one has no row before it has them all, so its samples are held whole.

@@ -110,6 +110,11 @@ impl<R: Read + Seek> TiffFile<R> {
         Ok(self.numbers(directory, tag)?.and_then(|numbers| numbers.first().copied()))
     }
 
+    /// The bytes of a tag, at most `max`; `None` where it is not there.
+    pub(crate) fn bytes(&mut self, directory: &Directory, tag: u16, max: u64) -> Result<Option<Vec<u8>>, Error> {
+        directory.entry(tag).map(|entry| self.data(entry, 1, max)).transpose()
+    }
+
     /// Bytes of the picture, which lie at `at`.
     pub(crate) fn read_at(&mut self, at: u64, count: u64) -> Result<Vec<u8>, Error> {
         if at.checked_add(count).is_none_or(|end| end > self.length) {

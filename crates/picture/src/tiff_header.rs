@@ -34,6 +34,7 @@ pub(crate) mod tag {
     pub(crate) const SUB_IFDS: u16 = 330;
     pub(crate) const EXTRA_SAMPLES: u16 = 338;
     pub(crate) const SAMPLE_FORMAT: u16 = 339;
+    pub(crate) const ICC_PROFILE: u16 = 34_675;
     pub(crate) const DNG_VERSION: u16 = 50_706;
 }
 

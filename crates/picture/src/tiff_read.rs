@@ -2,6 +2,8 @@
 
 use rayon::prelude::*;
 
+#[cfg(feature = "icc")]
+use crate::icc;
 use crate::{
     alpha,
     band::{BAND_PIXELS, Band, Bands, ReadingMemory, RowMut, blocks_in_band},
@@ -9,8 +11,9 @@ use crate::{
     error::{Error, TiffProblem},
     input::Input,
     limits::Limits,
+    orientation::{Orientation, upright},
     panic_to_error::panic_to_error,
-    tiff_directory::TiffFile,
+    tiff_directory::{Directory, TiffFile},
     tiff_header::{Colours, Coverage, Header, Sample, tag},
     tiff_pages,
 };
@@ -37,11 +40,23 @@ pub(crate) fn open<'a>(
     let mut description = Description::new(width, height, channels, source);
     description.notes.extend(page.notes);
     description.notes.extend(header.notes.iter().cloned());
-    if file.first(&page.directory, tag::ORIENTATION)?.is_some_and(|way| way > 1) {
-        description.notes.push("left the TIFF's orientation as stored".to_owned());
-    }
+    colours(&mut file, &page.directory, &mut description);
+    let orientation = Orientation::from_exif(file.first(&page.directory, tag::ORIENTATION).ok().flatten());
     let bands = TiffBands { file, header, channels, max_bytes: limits.max_bytes, next: 0, begun: Vec::new() };
-    Ok((description, Box::new(bands)))
+    upright(orientation, description, Box::new(bands), limits)
+}
+
+/// What the ICC profile of a page says of its colours.
+fn colours(file: &mut TiffFile<Input<'_>>, page: &Directory, description: &mut Description) {
+    #[cfg(feature = "icc")]
+    match file.bytes(page, tag::ICC_PROFILE, icc::MAX_BYTES as u64) {
+        Ok(Some(profile)) => match icc::colours(&profile) {
+            Ok(colours) => colours.describe(description),
+            Err(note) => description.notes.push(note),
+        },
+        Ok(None) => {}
+        Err(_) => description.notes.push("left out the file's ICC profile, which is too large or cut off".to_owned()),
+    }
 }
 
 /// The strips of a TIFF, or its rows of tiles.

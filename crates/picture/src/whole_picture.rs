@@ -12,6 +12,7 @@ use crate::{
     error::Error,
     limits::Limits,
     reader::open,
+    transfer::Transfer,
 };
 
 /// A picture in memory, as a file holds it: 12 bytes a pixel, 16 with coverage.
@@ -43,6 +44,8 @@ pub struct Picture {
     pub windows: Windows,
     /// The colour space of `rgb` where the file names it.
     pub primaries: Option<Chromaticities>,
+    /// How the values become light where the file says it.
+    pub transfer: Option<Transfer>,
     /// What kind of file it was.
     pub source: Source,
     /// What the reader chose among several layers or left out, a sentence each, for the user.
@@ -53,7 +56,7 @@ impl Picture {
     /// Opaque colours of one window at the origin, of no named primaries.
     pub fn opaque(width: usize, height: usize, rgb: Vec<[f32; 3]>, source: Source) -> Self {
         let windows = Windows::of_size(width, height);
-        Self { width, height, rgb, alpha: None, windows, primaries: None, source, notes: Vec::new() }
+        Self { width, height, rgb, alpha: None, windows, primaries: None, transfer: None, source, notes: Vec::new() }
     }
 
     /// Reads all bands of a picture.
@@ -62,9 +65,10 @@ impl Picture {
     /// Those of [`open`] and of [`PictureReader::next_band`](crate::PictureReader::next_band).
     pub fn read(reader: impl Read + Seek + Send, name: &str, limits: Limits) -> Result<Self, Error> {
         let mut reader = open(reader, name, limits)?;
-        let Description { width, height, channels, windows, primaries, source, notes } = reader.description().clone();
+        let Description { width, height, channels, windows, primaries, transfer, source, notes, .. } =
+            reader.description().clone();
         let alpha = (channels == Channels::Rgba).then(Vec::new);
-        let mut picture = Self { width, height, rgb: Vec::new(), alpha, windows, primaries, source, notes };
+        let mut picture = Self { width, height, rgb: Vec::new(), alpha, windows, primaries, transfer, source, notes };
         while let Some(band) = reader.next_band()? {
             debug_assert_eq!((band.top() * width, band.width()), (picture.rgb.len(), width), "bands follow each other");
             picture.rgb.extend_from_slice(band.rgb());
@@ -90,6 +94,7 @@ impl Picture {
         Description {
             windows: self.windows,
             primaries: self.primaries,
+            transfer: self.transfer.clone(),
             notes: self.notes.clone(),
             ..Description::new(self.width, self.height, channels, self.source)
         }

@@ -18,6 +18,23 @@ pub(crate) enum ExrProblem {
     Channels {
         found: String,
     },
+    /// Colour as luminance and two differences.
+    LuminanceChroma,
+    /// Layers of which none is the picture.
+    NoBeauty {
+        found: String,
+    },
+    NoLayer {
+        asked: String,
+        found: String,
+    },
+    NoPart {
+        asked: String,
+        found: String,
+    },
+    Compression {
+        found: String,
+    },
     Subsampled {
         channel: String,
         step: [usize; 2],
@@ -26,7 +43,6 @@ pub(crate) enum ExrProblem {
         found: [usize; 2],
         max: u64,
     },
-    Htj2k,
     TableEndsEarly {
         count: usize,
     },
@@ -70,7 +86,14 @@ const COMPRESSIONS: &str = "none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA or
 impl ExrProblem {
     pub(super) fn class(&self) -> Class {
         match self {
-            Self::DeepData | Self::Channels { .. } | Self::Subsampled { .. } | Self::Htj2k => Class::Unsupported,
+            Self::DeepData
+            | Self::Channels { .. }
+            | Self::LuminanceChroma
+            | Self::NoBeauty { .. }
+            | Self::NoLayer { .. }
+            | Self::NoPart { .. }
+            | Self::Subsampled { .. }
+            | Self::Compression { .. } => Class::Unsupported,
             Self::TileSide { .. } => Class::Limit,
             _ => Class::Damaged,
         }
@@ -86,7 +109,21 @@ impl fmt::Display for ExrProblem {
                 write!(f, "{what} is empty: from column {left} to {right} and row {top} to {bottom}")
             }
             Self::DeepData => f.write_str("the file holds deep data, expected a flat picture (flatten it first)"),
-            Self::Channels { found } => write!(f, "found the channels {found}, expected R, G and B (or Y)"),
+            Self::Channels { found } => {
+                write!(f, "found the channels {found}, expected R, G and B, or X, Y and Z, or Y, or a single one")
+            }
+            Self::LuminanceChroma => f.write_str(
+                "found luminance and chroma (Y, RY and BY), expected R, G and B (`exrmaketiled`, `oiiotool` or the program \
+                 that wrote it can convert it)",
+            ),
+            Self::NoBeauty { found } => write!(
+                f,
+                "found {found}, none of which is called a finished picture, expected R, G and B without a layer name or \
+                 a layer to be chosen"
+            ),
+            Self::NoLayer { asked, found } => write!(f, "there is no layer `{asked}` that makes a picture, found {found}"),
+            Self::NoPart { asked, found } => write!(f, "there is no part {asked}, found the parts {found}"),
+            Self::Compression { found } => write!(f, "found {found} compression, expected {COMPRESSIONS}"),
             Self::Subsampled { channel, step: [x, y] } => write!(
                 f,
                 "the channel `{channel}` is subsampled {x} x {y}, expected a sample of every channel at every pixel"
@@ -94,7 +131,6 @@ impl fmt::Display for ExrProblem {
             Self::TileSide { found: [width, height], max } => {
                 write!(f, "a tile is {width} x {height} pixels, expected sides up to {max}")
             }
-            Self::Htj2k => write!(f, "found HTJ2K compression, expected {COMPRESSIONS}"),
             Self::TableEndsEarly { count } => {
                 write!(f, "the file ends within its table of {count} blocks (is it truncated?)")
             }

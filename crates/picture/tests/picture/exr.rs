@@ -241,7 +241,7 @@ fn the_layer_without_a_name_comes_first_and_else_the_first_whole_one() {
     all.extend([("R", value(5.0)), ("G", value(6.0)), ("B", value(7.0))]);
     let picture = read_bytes(&file(vec![layer(None, [2, 2], stored, &all)])).unwrap();
     assert_eq!((picture.rgb[0], picture.alpha.map(|alpha| alpha[0])), ([10.0, 12.0, 14.0], Some(0.5)));
-    assert!(picture.notes.is_empty());
+    assert_eq!(picture.notes, ["read the channels without a layer name; there are also `b.x`, `c`"]);
 }
 
 #[test]
@@ -260,7 +260,7 @@ fn the_first_part_with_colour_is_read() {
     ];
     let picture = read_bytes(&file(parts)).unwrap();
     assert!(picture.rgb.iter().all(|colour| *colour == [1.0; 3]));
-    assert_eq!(picture.notes, ["read part 2 (`beauty`) of 3 parts"]);
+    assert_eq!(picture.notes, ["read part 2 (`beauty`) of 3 parts; there are also `depth`, `glow`"]);
 }
 
 #[test]

@@ -3,8 +3,11 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
 
 mod bands;
+mod colours;
 mod damage;
 mod exr;
+mod jpeg_and_radiance;
+mod layers;
 mod plain;
 mod refusals;
 mod tiff;
@@ -12,9 +15,9 @@ mod tiff;
 use std::io::{Cursor, ErrorKind};
 
 use onelight_picture::{
-    Band, BandSink, BandView, Channels, Chromaticities, ColourTag, Description, Error, Limits, Picture, PictureReader,
-    PngBits, PngSettings, PngTransfer, Source, TiffSamples, Windows, open, text_of_complete_picture, write_exr,
-    write_png,
+    Band, BandSink, BandView, Channels, Chromaticities, ColourTag, Description, Error, Limits, PartChoice, Picture,
+    PictureReader, PngBits, PngSettings, PngTransfer, Selection, Source, TiffSamples, Transfer, Windows, open,
+    open_selected, text_of_complete_picture, write_exr, write_png,
 };
 
 /// A picture that compresses, with a value in it that few things survive.
