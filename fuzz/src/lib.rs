@@ -7,7 +7,7 @@
 pub mod look;
 /// Text files of tables and forms: `.cube`, CLF, `.spi3d`, the JSON of a direct form, and our KTX2 as others read it.
 pub mod lut;
-/// Pictures: OpenEXR, PNG, TIFF, whole.
+/// Pictures: OpenEXR, PNG, TIFF, JPEG, Radiance, whole.
 pub mod picture;
 /// Data sheets, as far as the film on the screen.
 pub mod stock;

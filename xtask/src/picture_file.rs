@@ -7,7 +7,9 @@ use std::{
 };
 
 use anyhow::{Result, anyhow, bail};
-use onelight_picture::{BandSink, Description, Limits, Picture, PictureReader, PngSettings, readable_formats};
+use onelight_picture::{
+    BandSink, Description, Limits, Picture, PictureReader, PngSettings, Selection, readable_formats,
+};
 
 use crate::atomic_file::write_atomically;
 
@@ -16,8 +18,16 @@ use crate::atomic_file::write_atomically;
 /// # Errors
 /// One sentence that starts with `path`: no such file, a folder, or what [`onelight_picture::open`] says.
 pub(crate) fn open(path: &Path, limits: &Limits) -> Result<PictureReader<'static>> {
+    open_selected(path, limits, &Selection::default())
+}
+
+/// Opens one picture of a file that may hold several.
+///
+/// # Errors
+/// As [`open`], and what is asked for and is not there.
+pub(crate) fn open_selected(path: &Path, limits: &Limits, selection: &Selection) -> Result<PictureReader<'static>> {
     let file = open_file(path).map_err(|error| anyhow!("{}: {error}", path.display()))?;
-    Ok(onelight_picture::open(file, &path.display().to_string(), *limits)?)
+    Ok(onelight_picture::open_selected(file, &path.display().to_string(), *limits, selection)?)
 }
 
 /// Writes `picture` as [`onelight_picture::write_exr`] does.
@@ -91,9 +101,13 @@ mod tests {
     fn messages_begin_with_the_path() {
         let folder = tempfile::tempdir().unwrap();
         for (name, contents, expected) in [
-            ("none.exr", None, "there is no such file, expected an OpenEXR, PNG or TIFF picture"),
-            (".", None, "is a folder, expected an OpenEXR, PNG or TIFF picture"),
-            ("empty.exr", Some(&b""[..]), "the file is empty, expected an OpenEXR, PNG or TIFF picture"),
+            ("none.exr", None, "there is no such file, expected an OpenEXR, PNG, TIFF, JPEG or Radiance picture"),
+            (".", None, "is a folder, expected an OpenEXR, PNG, TIFF, JPEG or Radiance picture"),
+            (
+                "empty.exr",
+                Some(&b""[..]),
+                "the file is empty, expected an OpenEXR, PNG, TIFF, JPEG or Radiance picture",
+            ),
             ("b.png", Some(b"\x89PNG\r\n\x1a\n"), "the file ends too early (is it truncated?)"),
         ] {
             let path = folder.path().join(name);

@@ -65,6 +65,16 @@ pub enum WorkingSpace {
     Rec2020,
     /// ACEScg's (AP1), wide enough for rendering.
     AcesCg,
+    /// ACES2065-1's (AP0), for exchange and archives.
+    Aces2065,
+    /// P3's with the white of film projection, which counts where white is taken absolutely.
+    DciP3,
+    /// Adobe RGB's (1998).
+    AdobeRgb,
+    /// ProPhoto's, which are those of ROMM RGB.
+    ProPhoto,
+    /// CIE XYZ.
+    Xyz,
 }
 
 impl WorkingSpace {
@@ -76,6 +86,11 @@ impl WorkingSpace {
             Self::P3 => RgbSpace::DISPLAY_P3,
             Self::Rec2020 => RgbSpace::REC2020,
             Self::AcesCg => RgbSpace::ACESCG,
+            Self::Aces2065 => RgbSpace::ACES2065_1,
+            Self::DciP3 => RgbSpace::DCI_P3,
+            Self::AdobeRgb => RgbSpace::ADOBE_RGB,
+            Self::ProPhoto => RgbSpace::PROPHOTO,
+            Self::Xyz => RgbSpace::XYZ,
         }
     }
 }
@@ -130,7 +145,12 @@ words! {
         WorkingSpace::Srgb = "srgb" "sRGB primaries",
         WorkingSpace::P3 = "p3" "Display P3 primaries",
         WorkingSpace::Rec2020 = "rec2020" "BT.2020 primaries",
-        WorkingSpace::AcesCg = "acescg" "ACEScg primaries";
+        WorkingSpace::AcesCg = "acescg" "ACEScg primaries",
+        WorkingSpace::Aces2065 = "aces2065-1" "ACES2065-1 primaries (AP0)",
+        WorkingSpace::DciP3 = "dci-p3" "P3 primaries, white of film projection",
+        WorkingSpace::AdobeRgb = "adobe-rgb" "Adobe RGB (1998) primaries",
+        WorkingSpace::ProPhoto = "prophoto" "ProPhoto (ROMM RGB) primaries",
+        WorkingSpace::Xyz = "xyz" "CIE XYZ as primaries: (1, 1, 1) is white";
     TransferCurve, "output_coding":
         TransferCurve::Srgb = "srgb" "the sRGB curve",
         TransferCurve::Gamma24 = "gamma24" "a power of 2.4",

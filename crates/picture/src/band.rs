@@ -77,6 +77,11 @@ impl Band {
         self.alpha.as_deref_mut()
     }
 
+    /// Makes it opaque: its colours stay as they are, without coverage.
+    pub fn leave_out_alpha(&mut self) {
+        self.alpha = None;
+    }
+
     /// The whole band, as a [`BandSink`](crate::BandSink) takes it.
     pub fn view(&self) -> BandView<'_> {
         BandView { top: self.top, width: self.width, rgb: &self.rgb, alpha: self.alpha.as_deref() }

@@ -19,8 +19,12 @@ pub struct Description {
     pub height: usize,
     /// What a pixel holds: colour, or colour and coverage.
     pub channels: Channels,
+    /// How the file keeps colours that alpha covers in part. Colours are given straight in any case.
+    pub stored_alpha: StoredAlpha,
     /// Where the pixels lie and what part of the plane is shown.
     pub windows: Windows,
+    /// What the three numbers of a colour are.
+    pub tristimulus: Tristimulus,
     /// The colour space of the pixels where the file names it.
     pub primaries: Option<Chromaticities>,
     /// How the values become light where the file says it. Values are given as they are. Writers do not look at it.
@@ -41,7 +45,9 @@ impl Description {
             width,
             height,
             channels,
+            stored_alpha: StoredAlpha::Straight,
             windows,
+            tristimulus: Tristimulus::Rgb,
             primaries: None,
             transfer: None,
             colours_said_by: None,
@@ -81,6 +87,41 @@ impl Channels {
     }
 }
 
+/// What the three numbers of a colour are. Writers do not look at it.
+///
+/// ```
+/// use onelight_picture::{Channels, Description, Source, Tristimulus};
+///
+/// let picture = Description::new(1, 1, Channels::Rgb, Source::Exr);
+/// assert_eq!(picture.tristimulus, Tristimulus::Rgb);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tristimulus {
+    /// Red, green and blue of a space, (1, 1, 1) being its white.
+    Rgb,
+    /// The CIE 1931 X, Y and Z of light.
+    Xyz,
+}
+
+/// How a file keeps colours that alpha covers in part.
+///
+/// ```
+/// use onelight_picture::StoredAlpha;
+///
+/// /// Whether colour under an alpha of 0 is light, such as glow, and not a leftover.
+/// fn is_light_without_coverage(stored: StoredAlpha) -> bool {
+///     stored == StoredAlpha::Premultiplied
+/// }
+/// # assert!(is_light_without_coverage(StoredAlpha::Premultiplied));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StoredAlpha {
+    /// Colours are those of what covers the pixel, however little.
+    Straight,
+    /// Colours are multiplied by alpha: the light that the pixel gives.
+    Premultiplied,
+}
+
 /// The windows of OpenEXR: pixels are given in the data window, the display window is what a viewer shows.
 ///
 /// Columns count to the right and rows down, in one plane for both windows. Files of other formats have one window at the
@@ -109,6 +150,24 @@ impl Windows {
     /// Both windows the same, at the origin, of square pixels.
     pub fn of_size(width: usize, height: usize) -> Self {
         Self { data_origin: [0; 2], display_origin: [0; 2], display_size: [width, height], pixel_aspect: 1.0 }
+    }
+
+    /// Whether a viewer shows any pixel of a data window of `width` by `height` pixels.
+    ///
+    /// ```
+    /// use onelight_picture::Windows;
+    ///
+    /// let aside = Windows { data_origin: [2000, 0], ..Windows::of_size(1920, 1080) };
+    /// assert!(Windows::of_size(1920, 1080).show_pixels(1920, 1080) && !aside.show_pixels(1920, 1080));
+    /// ```
+    #[must_use]
+    pub fn show_pixels(&self, width: usize, height: usize) -> bool {
+        let overlap = |axis: usize, size: usize| {
+            let (data, display) = (i64::from(self.data_origin[axis]), i64::from(self.display_origin[axis]));
+            let end = |origin: i64, size: usize| origin.saturating_add(i64::try_from(size).unwrap_or(i64::MAX));
+            data < end(display, self.display_size[axis]) && display < end(data, size)
+        };
+        overlap(0, width) && overlap(1, height)
     }
 }
 

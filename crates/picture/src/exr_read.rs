@@ -17,7 +17,7 @@ use exr::{
 
 use crate::{
     band::Bands,
-    description::{Channels, Chromaticities, Description, Source, Windows},
+    description::{Channels, Chromaticities, Description, Source, StoredAlpha, Tristimulus, Windows},
     error::{Error, ExrProblem, exr_message},
     exr_bands::{self, ExrBands},
     exr_blocks::Blocks,
@@ -56,11 +56,15 @@ pub(crate) fn open<'a>(
         width: header.layer_size.0,
         height: header.layer_size.1,
         channels: if layout.alpha.is_some() { Channels::Rgba } else { Channels::Rgb },
+        stored_alpha: StoredAlpha::Premultiplied,
         windows,
         notes,
         ..Description::new(1, 1, Channels::Rgb, Source::Exr)
     };
     colours(header, layout.is_xyz).describe(&mut description);
+    if layout.is_xyz {
+        description.tristimulus = Tristimulus::Xyz;
+    }
     let blocks = Blocks::open(reader, length, tables_at, &meta, layout.part)?;
     Ok((description, Box::new(ExrBands::new(blocks, meta, layout))))
 }

@@ -45,7 +45,7 @@ impl Chromaticities {
     /// The CIE 1931 XYZ of light, of which (1, 1, 1) has equal energy.
     pub const XYZ: Self = Self { red: [1.0, 0.0], green: [0.0, 1.0], blue: [0.0, 0.0], white: [1.0 / 3.0, 1.0 / 3.0] };
 
-    /// Whether all eight numbers are the same to the three decimals that standards give.
+    /// Whether all eight numbers are the same to half of the last of the three decimals that standards give.
     pub fn is_near(&self, other: &Self) -> bool {
         let numbers = |c: &Self| [c.red, c.green, c.blue, c.white];
         let near = |a: f32, b: f32| (a - b).abs() < 5e-4;

@@ -5,7 +5,7 @@ use std::io::{BufRead, Read};
 use crate::{
     band::{Band, Bands, ReadingMemory, blocks_in_band},
     decoder_message::one_line,
-    description::{Channels, Chromaticities, Description, Source},
+    description::{Channels, Chromaticities, Description, Source, Tristimulus},
     error::{Error, HdrProblem, Kind},
     file_colours::FileColours,
     input::Input,
@@ -40,6 +40,7 @@ pub(crate) fn open<'a>(
     };
     colours.describe(&mut description);
     if header.is_xyz {
+        description.tristimulus = Tristimulus::Xyz;
         description.notes.push("the file's values are the light's CIE XYZ".to_owned());
     }
     let scale = header.exposure.map(|exposure| 1.0 / exposure);

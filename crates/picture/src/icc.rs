@@ -128,7 +128,7 @@ fn simplest(curves: [Curve; 3]) -> Transfer {
     Transfer::Curves(Arc::new(curves))
 }
 
-/// The Bradford cone responses of XYZ ([Lam1985], as ICC.1 gives them in annex E).
+/// The Bradford cone responses of XYZ (\[ICC1\], annex E).
 const BRADFORD: Matrix3d =
     Matrix3d { v: [[0.8951, 0.2664, -0.1614], [-0.7502, 1.7135, 0.0367], [0.0389, -0.0685, 1.0296]] };
 

@@ -124,7 +124,7 @@ mod whole_picture;
 
 pub use band::{Band, BandView, ReadingMemory, RowMut};
 pub use band_sink::BandSink;
-pub use description::{Channels, Chromaticities, Description, Source, TiffSamples, Windows};
+pub use description::{Channels, Chromaticities, Description, Source, StoredAlpha, TiffSamples, Tristimulus, Windows};
 pub use error::Error;
 #[cfg(feature = "exr")]
 pub use exr_write::write_exr;

@@ -301,6 +301,10 @@ impl ColourTag {
         }));
         let Chromaticities { red, green, blue, white } = self.primaries;
         let pair = |[x, y]: [f32; 2]| (x, y);
+        // The chunk has no sign: primaries such as ACES2065-1's blue cannot be said.
+        if [red, green, blue, white].as_flattened().iter().any(|v| *v < 0.0) {
+            return;
+        }
         encoder.set_source_chromaticities(SourceChromaticities::new(pair(white), pair(red), pair(green), pair(blue)));
     }
 
@@ -322,17 +326,8 @@ const BT709: u8 = 1;
 impl Chromaticities {
     /// The code point of H.273 for these primaries.
     fn code_point(&self) -> Option<u8> {
-        const D65: [f32; 2] = [0.3127, 0.3290];
-        let known = [
-            (BT709, [[0.640, 0.330], [0.300, 0.600], [0.150, 0.060], D65]),
-            (9, [[0.708, 0.292], [0.170, 0.797], [0.131, 0.046], D65]), // BT.2020
-            (12, [[0.680, 0.320], [0.265, 0.690], [0.150, 0.060], D65]), // Display P3
-        ];
-        let own = [self.red, self.green, self.blue, self.white];
-        let near = |a: f32, b: f32| (a - b).abs() < 5e-4; // standards give three decimals
-        let same =
-            |points: &[[f32; 2]; 4]| points.as_flattened().iter().zip(own.as_flattened()).all(|(a, b)| near(*a, *b));
-        known.iter().find(|(_, points)| same(points)).map(|(code, _)| *code)
+        let known = [(BT709, Self::BT709), (9, Self::BT2020), (12, Self::P3_D65)];
+        known.iter().find(|(_, known)| known.is_near(self)).map(|(code, _)| *code)
     }
 }
 

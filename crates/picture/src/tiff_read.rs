@@ -7,7 +7,7 @@ use crate::icc;
 use crate::{
     alpha,
     band::{BAND_PIXELS, Band, Bands, ReadingMemory, RowMut, blocks_in_band},
-    description::{Channels, Description, Source, TiffSamples},
+    description::{Channels, Description, Source, StoredAlpha, TiffSamples},
     error::{Error, TiffProblem},
     input::Input,
     limits::Limits,
@@ -38,6 +38,9 @@ pub(crate) fn open<'a>(
     let source = Source::Tiff { bits: header.sample.bits().max(8), samples };
     let [width, height] = header.size;
     let mut description = Description::new(width, height, channels, source);
+    if let Some((_, Coverage::Premultiplied)) = header.alpha {
+        description.stored_alpha = StoredAlpha::Premultiplied;
+    }
     description.notes.extend(page.notes);
     description.notes.extend(header.notes.iter().cloned());
     colours(&mut file, &page.directory, &mut description);

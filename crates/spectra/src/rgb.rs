@@ -27,6 +27,10 @@ pub struct Chromaticity {
 impl Chromaticity {
     /// The CIE's D65 as RGB standards round it.
     pub const D65: Self = Self::new(0.3127, 0.3290);
+    /// The CIE's D50 as RGB standards round it.
+    pub const D50: Self = Self::new(0.3457, 0.3585);
+    /// The white of film projection (\[RP431-2\]).
+    pub const DCI: Self = Self::new(0.314, 0.351);
     /// The white of ACES (\[TB2014-004\]).
     pub const ACES: Self = Self::new(0.32168, 0.33767);
 
@@ -84,6 +88,14 @@ impl RgbSpace {
     pub const ACESCG: Self = Self::new([(0.713, 0.293), (0.165, 0.830), (0.128, 0.044)], Chromaticity::ACES);
     /// ACES2065-1, the AP0 primaries (\[ST2065-1\]).
     pub const ACES2065_1: Self = Self::new([(0.7347, 0.2653), (0.0, 1.0), (0.0001, -0.0770)], Chromaticity::ACES);
+    /// P3 with the white of film projection (\[RP431-2\]).
+    pub const DCI_P3: Self = Self::DISPLAY_P3.with_white(Chromaticity::DCI);
+    /// Adobe RGB (1998) (\[AdobeRGB1998\]).
+    pub const ADOBE_RGB: Self = Self::new([(0.64, 0.33), (0.21, 0.71), (0.15, 0.06)], Chromaticity::D65);
+    /// ProPhoto RGB, which is ROMM RGB, with its white D50 (\[ISO22028-2\]).
+    pub const PROPHOTO: Self = Self::new([(0.7347, 0.2653), (0.1596, 0.8404), (0.0366, 0.0001)], Chromaticity::D50);
+    /// CIE 1931 XYZ as if it were red, green and blue, about equal energy.
+    pub const XYZ: Self = Self::new([(1.0, 0.0), (0.0, 1.0), (0.0, 0.0)], Chromaticity::new(1.0 / 3.0, 1.0 / 3.0));
     /// ARRI Wide Gamut 4, the primaries of LogC4 (\[ArriLogC4\]).
     pub const ARRI_WIDE_GAMUT_4: Self =
         Self::new([(0.7347, 0.2653), (0.1424, 0.8576), (0.0991, -0.0308)], Chromaticity::D65);

@@ -55,5 +55,7 @@ fn tables() {
 fn pictures() {
     over("exr", fuzz::picture::check);
     over("tiff", fuzz::picture::check);
+    over("jpeg", fuzz::picture::check);
+    over("hdr", fuzz::picture::check);
     over("png", fuzz::picture::check_png);
 }

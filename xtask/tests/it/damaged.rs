@@ -28,7 +28,7 @@ impl Random {
 /// The corpora of pictures, by name; `found-` are those that once did harm.
 fn corpora() -> Vec<(String, Vec<u8>)> {
     let top = fixtures().join("corpus");
-    let mut files: Vec<PathBuf> = ["exr", "tiff", "png"]
+    let mut files: Vec<PathBuf> = ["exr", "tiff", "png", "jpeg", "hdr"]
         .iter()
         .flat_map(|target| fs::read_dir(top.join(target)).unwrap().map(|entry| entry.unwrap().path()))
         .collect();

@@ -7,17 +7,19 @@ use indicatif::ProgressBar;
 use onelight::TransferCurve;
 use onelight::spectra::Chromaticity;
 use onelight_picture::{
-    Band, BandSink, Chromaticities, ColourTag, Description, Limits, PngBits, PngSettings, PngTransfer,
+    Band, BandSink, Channels, Chromaticities, ColourTag, Description, Limits, PngBits, PngSettings, PngTransfer,
 };
 use rayon::prelude::*;
 
 use super::bands::{Busy, look_through, pass};
+use super::coverage::CoverageSeen;
 use super::exposure::{Exposure, Meter};
 use super::film::Film;
-use super::light::{InputPrimaries, Light};
+use super::input::InputSettings;
+use super::light::Light;
 use crate::exposure::SceneExposure;
 use crate::look::ChosenLook;
-use crate::picture_file::{open, write_exr_bands, write_png_bands};
+use crate::picture_file::{open_selected, write_exr_bands, write_png_bands};
 
 /// Everything that decides how a picture is developed; the same for all pictures of a run.
 pub(super) struct Settings {
@@ -26,9 +28,8 @@ pub(super) struct Settings {
     pub(super) exposure: Exposure,
     /// What camera and frame buffer make of a picture's numbers.
     pub(super) scene: SceneExposure,
-    /// Transfer curve of what comes in, where it was named.
-    pub(super) input_coding: Option<TransferCurve>,
-    pub(super) input_primaries: InputPrimaries,
+    /// Which picture comes in, and what its numbers mean.
+    pub(super) input: InputSettings,
     pub(super) target: Target,
     pub(super) limits: Limits,
 }
@@ -73,13 +74,26 @@ pub(super) const DIGEST_KEY: &str = "onelight job";
 /// One sentence that starts with the path it is about; then `output` is as it was before.
 pub(super) fn develop_picture(settings: &Settings, order: &Order<'_>, progress: &ProgressBar) -> Result<Developed> {
     let input = order.input;
-    let Settings { look, film, exposure, input_primaries, target, .. } = settings;
-    let mut picture = open(input, &settings.limits)?;
+    let Settings { look, film, exposure, target, .. } = settings;
+    let open = || open_selected(input, &settings.limits, &settings.input.selection);
+    let mut picture = open()?;
     let description = picture.description().clone();
     let mut notes = description.notes.clone();
-    let light =
-        Light::new(&description, &look.process, settings.input_coding, *input_primaries, &settings.scene, &mut notes);
-    let light = light.with_context(|| input.display().to_string())?;
+    let light = Light::new(&description, &look.process, &settings.input, &settings.scene, &mut notes);
+    let mut light = light.with_context(|| input.display().to_string())?;
+    let reopened = || {
+        let again = open()?;
+        if *again.description() != description {
+            bail!("{}: the file changed while it was read", input.display());
+        }
+        Ok(again)
+    };
+    if description.channels == Channels::Rgba {
+        let mut seen = CoverageSeen::default();
+        look_through(&mut picture, |band| seen.add(band))?;
+        light.coverage = seen.decide(&description, settings.input.background, &mut notes);
+        picture = reopened()?;
+    }
     let height = description.height as u64;
 
     let mut meter = Meter::default();
@@ -94,10 +108,7 @@ pub(super) fn develop_picture(settings: &Settings, order: &Order<'_>, progress: 
                 light.measure(band, &mut meter);
                 progress.inc(band.rows() as u64);
             })?;
-            picture = open(input, &settings.limits)?;
-            if *picture.description() != description {
-                bail!("{}: the file changed while it was read", input.display());
-            }
+            picture = reopened()?;
             meter.auto()
         }
     };
@@ -107,9 +118,13 @@ pub(super) fn develop_picture(settings: &Settings, order: &Order<'_>, progress: 
         beyond += film.max().map_or(0, |max| brighter(band, max));
         film.develop(band, progress);
     };
-    let busy = write(order, *target, look, &description, |sink| pass(&mut picture, develop, sink))?;
+    let developed = Description { channels: light.coverage.channels(&description), ..description.clone() };
+    let busy = write(order, *target, look, &developed, |sink| pass(&mut picture, develop, sink))?;
 
     notes.extend(meter.notes(*exposure, ev));
+    if *target != Target::Exr && !description.windows.show_pixels(description.width, description.height) {
+        notes.push("the picture is empty, as its data window lies outside of its display window".to_owned());
+    }
     if beyond > 0 {
         let max = film.max().unwrap_or_default();
         notes.push(format!(

@@ -1,29 +1,24 @@
 //! From the values of a file to the light that meets the film.
 
 use anyhow::{Context, Result};
-use onelight::spectra::Chromaticity;
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
+use onelight::spectra::{Chromaticity, RgbSpace};
 use onelight::{Process, TransferCurve, Word};
-use onelight_picture::{Band, Description, RowMut, Source, TiffSamples};
+use onelight_picture::{Band, Chromaticities, Description, RowMut, Source, TiffSamples, Transfer, Tristimulus};
 use rayon::prelude::*;
 
+use super::coverage::Coverage;
 use super::exposure::{Meter, RowLight};
+use super::input::{InputPrimaries, InputSettings, InputWhite};
 use crate::exposure::SceneExposure;
 use crate::scene_colours;
-
-/// Whose word counts for the primaries of a picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum InputPrimaries {
-    /// The file's, and the look's where it says nothing.
-    OfFile,
-    /// Those of the look, whatever the file says.
-    OfLook,
-}
 
 /// How the values of a file become light.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Light {
-    coding: TransferCurve,
+    coding: Coding,
+    /// What becomes of alpha.
+    pub(super) coverage: Coverage,
     /// What camera and frame buffer make of the numbers.
     scene: SceneExposure,
     /// From the file's primaries to those of the process; `None` where they are the same.
@@ -32,30 +27,32 @@ pub(super) struct Light {
     luminance: Vector3<f64>,
 }
 
+/// How values are coded.
+#[derive(Debug, Clone, PartialEq)]
+enum Coding {
+    Named(TransferCurve),
+    OfFile(Transfer),
+}
+
 impl Light {
     /// For a picture; `notes` gets what the user should know of the choice.
     pub(super) fn new(
         picture: &Description,
         process: &Process,
-        coding: Option<TransferCurve>,
-        primaries: InputPrimaries,
+        input: &InputSettings,
         scene: &SceneExposure,
         notes: &mut Vec<String>,
     ) -> Result<Self> {
-        let to_input = if picture.primaries.is_some() && primaries == InputPrimaries::OfLook {
-            let space = process.spaces().input_space.word();
-            notes.push(format!("the file's own chromaticities give way to --input-space {space}"));
-            None
-        } else {
-            scene_colours::to_input_space(picture.primaries.as_ref(), process)?
-        };
-        let coding = coding_of(picture, coding, notes);
+        let to_input = to_input_space(picture, process, input, notes)?;
+        let coding = coding_of(picture, input.coding, notes);
+        notes.extend(said_by_file(picture, input));
         let to_xyz = process.spaces().input_space.space().with_white(Chromaticity::black_body_6500_k()).to_xyz();
         let to_xyz = to_xyz.context("the input space")?;
         let luminance = (to_xyz * to_input.unwrap_or_else(Matrix3::identity)).row(1).transpose();
         notes.extend(scene.notes.iter().cloned());
         let scene = scene.clone();
-        Ok(Self { coding, scene, to_input: to_input.filter(|matrix| *matrix != Matrix3::identity()), luminance })
+        let to_input = to_input.filter(|matrix| *matrix != Matrix3::identity());
+        Ok(Self { coding, coverage: Coverage::Kept, scene, to_input, luminance })
     }
 
     /// Undoes the transfer curve, takes the numbers through camera and buffer, and shows the light to the meter.
@@ -82,10 +79,11 @@ impl Light {
 
     fn each_row(&self, band: &mut Band, meter: Option<&mut Meter>, change: impl Fn(&mut [f32; 3]) + Sync) {
         let rows = band.rows_mut().map(|row| {
-            if self.coding != TransferCurve::Linear {
-                let decode = |v: f32| self.coding.decode(f64::from(v)) as f32;
-                row.rgb.iter_mut().for_each(|rgb| *rgb = rgb.map(decode));
+            let mut row = row;
+            if !self.coding.is_linear() {
+                row.rgb.iter_mut().for_each(|rgb| *rgb = self.coding.light(*rgb));
             }
+            self.coverage.apply(&mut row);
             if !self.scene.changes_nothing() {
                 row.rgb.iter_mut().for_each(|rgb| *rgb = self.scene.apply(*rgb));
             }
@@ -94,6 +92,9 @@ impl Light {
             seen
         });
         let rows: Vec<Option<RowLight>> = rows.collect();
+        if self.coverage != Coverage::Kept {
+            band.leave_out_alpha();
+        }
         if let Some(meter) = meter {
             rows.iter().flatten().for_each(|row| meter.add(row));
         }
@@ -101,10 +102,11 @@ impl Light {
 
     fn look_at(&self, row: &RowMut<'_>) -> RowLight {
         let mut seen = RowLight { hard: 0, logs: Vec::with_capacity(row.rgb.len()) };
+        let kept = self.coverage == Coverage::Kept;
         for (x, rgb) in row.rgb.iter().enumerate() {
             seen.hard += usize::from(rgb.iter().any(|v| !v.is_finite()));
             let luminance = self.luminance.dot(&Vector3::from(rgb.map(f64::from)));
-            let covered = row.alpha.as_ref().is_none_or(|alpha| alpha[x] != 0.0);
+            let covered = !kept || row.alpha.as_ref().is_none_or(|alpha| alpha[x] != 0.0);
             if covered && luminance > 0.0 && luminance.is_finite() {
                 seen.logs.push(luminance.log2());
             }
@@ -113,20 +115,102 @@ impl Light {
     }
 }
 
-/// The transfer curve to undo.
-fn coding_of(picture: &Description, named: Option<TransferCurve>, notes: &mut Vec<String>) -> TransferCurve {
-    match (named, picture.source) {
-        (Some(_), Source::Exr) => {
-            notes.push("an EXR holds linear light: --input-coding is not used".to_owned());
-            TransferCurve::Linear
-        }
-        (Some(coding), _) => coding,
-        (None, Source::Exr | Source::Tiff { samples: TiffSamples::Float, .. }) => TransferCurve::Linear,
-        (None, Source::Png { .. } | Source::Tiff { samples: TiffSamples::Integer, .. }) => {
-            notes.push("the picture's integers are taken for sRGB-coded (--input-coding says otherwise)".to_owned());
-            TransferCurve::Srgb
+impl Coding {
+    fn is_linear(&self) -> bool {
+        matches!(self, Self::Named(TransferCurve::Linear) | Self::OfFile(Transfer::Linear))
+    }
+
+    fn light(&self, rgb: [f32; 3]) -> [f32; 3] {
+        match self {
+            Self::Named(curve) => rgb.map(|v| curve.decode(f64::from(v)) as f32),
+            Self::OfFile(transfer) => transfer.light(rgb),
         }
     }
+}
+
+/// From a picture's primaries to those of the process; `None` where they are the same.
+fn to_input_space(
+    picture: &Description,
+    process: &Process,
+    input: &InputSettings,
+    notes: &mut Vec<String>,
+) -> Result<Option<Matrix3<f64>>> {
+    let look = process.spaces().input_space;
+    let of_file = picture.primaries.filter(|_| input.primaries == InputPrimaries::OfFile);
+    if picture.primaries.is_some() && of_file.is_none() {
+        let space = look.word();
+        notes.push(format!("the file's own chromaticities give way to --input-space {space}"));
+    }
+    let is_xyz = of_file.is_some() && picture.tristimulus == Tristimulus::Xyz;
+    let usual = if is_xyz { InputWhite::Absolute } else { InputWhite::Relative };
+    match input.white.unwrap_or(usual) {
+        InputWhite::Relative => {
+            let way_out = "its chromaticities make no colour space, expected --input-space with the one that is meant";
+            scene_colours::to_input_space(of_file.as_ref(), process).context(way_out)
+        }
+        InputWhite::Absolute => {
+            let own = of_file.map_or(look.space(), |own| scene_colours::space_of(&own));
+            let to_srgb = RgbSpace::SRGB.from_xyz()? * own.to_xyz().context("its chromaticities")?;
+            let matrix = RgbSpace::SRGB.to_about(&look.space(), Chromaticity::black_body_6500_k())? * to_srgb;
+            Ok(Some(matrix))
+        }
+    }
+}
+
+/// The transfer curve to undo: the command line's, else the file's, else what is usual.
+fn coding_of(picture: &Description, named: Option<TransferCurve>, notes: &mut Vec<String>) -> Coding {
+    let floats =
+        matches!(picture.source, Source::Exr | Source::RadianceHdr | Source::Tiff { samples: TiffSamples::Float, .. });
+    match (named, &picture.transfer) {
+        (Some(_), None) if picture.source == Source::Exr => {
+            notes.push("an EXR holds linear light: --input-coding is not used".to_owned());
+            Coding::Named(TransferCurve::Linear)
+        }
+        (Some(coding), said) => {
+            if said.is_some() && picture.source != Source::RadianceHdr {
+                notes.push(format!("the file's own coding gives way to --input-coding {}", coding.word()));
+            }
+            Coding::Named(coding)
+        }
+        (None, Some(transfer)) => Coding::OfFile(transfer.clone()),
+        (None, None) if floats => Coding::Named(TransferCurve::Linear),
+        (None, None) => {
+            notes.push(
+                "the file does not say how its integers are coded: taken for sRGB (--input-coding says otherwise)"
+                    .to_owned(),
+            );
+            Coding::Named(TransferCurve::Srgb)
+        }
+    }
+}
+
+/// What a file says of its colours and is believed.
+fn said_by_file(picture: &Description, input: &InputSettings) -> Option<String> {
+    let said_by = picture.colours_said_by.as_ref()?;
+    let transfer = picture.transfer.as_ref().filter(|_| input.coding.is_none()).map(|transfer| match transfer {
+        Transfer::Linear => "linear".to_owned(),
+        Transfer::Srgb => "sRGB-coded".to_owned(),
+        Transfer::Power(power) => format!("coded by a power of 1/{power:.4}"),
+        Transfer::Bt709 => "coded by BT.709's camera curve".to_owned(),
+        Transfer::Pq => "PQ-coded, white at 203 cd/m2".to_owned(),
+        Transfer::Hlg => "HLG-coded, white at 75 %".to_owned(),
+        Transfer::Curves(_) => "coded by curves of its own".to_owned(),
+    });
+    let primaries = picture.primaries.filter(|_| input.primaries == InputPrimaries::OfFile).map(|own| {
+        let named = [
+            (Chromaticities::BT709, "sRGB primaries"),
+            (Chromaticities::P3_D65, "Display P3 primaries"),
+            (Chromaticities::P3_DCI, "DCI-P3 primaries"),
+            (Chromaticities::BT2020, "BT.2020 primaries"),
+            (Chromaticities::ADOBE_RGB, "Adobe RGB primaries"),
+            (Chromaticities::AP1, "ACEScg primaries"),
+            (Chromaticities::AP0, "ACES2065-1 primaries"),
+            (Chromaticities::XYZ, "CIE XYZ"),
+        ];
+        named.iter().find(|(named, _)| named.is_near(&own)).map_or("primaries of its own", |(_, name)| name)
+    });
+    let said: Vec<&str> = primaries.into_iter().chain(transfer.as_deref()).collect();
+    (!said.is_empty()).then(|| format!("read as {}, by {said_by}", said.join(", ")))
 }
 
 /// What a channel counts as before it is mixed with others.

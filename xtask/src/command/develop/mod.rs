@@ -1,6 +1,8 @@
 mod bands;
+mod coverage;
 pub(crate) mod exposure;
 mod film;
+mod input;
 mod job;
 mod light;
 mod paths;
@@ -17,19 +19,18 @@ use serde_json::json;
 
 use self::exposure::Exposure;
 use self::film::{Film, Form};
+use self::input::InputArguments;
 use self::job::{Developed, Order, Settings, Target, develop_picture};
-use self::light::InputPrimaries;
 use self::paths::same_file;
 use self::sequence::{FrameNumbers, Memory, Shard, Summary};
 use crate::exposure::ExposureArguments;
 use crate::look::LookArguments;
 use crate::progress::{Clock, bar};
-use crate::words::words;
 use crate::{Report, atomic_file, folders};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Scene-linear picture: EXR, or 16-bit or float TIFF or PNG; many as 'shot.####.exr', shot.%04d.exr or '*.exr'
+    /// Picture: scene-linear EXR, float TIFF or Radiance, or TIFF, PNG or JPEG, whose coding is undone; many as 'shot.####.exr', shot.%04d.exr or '*.exr'
     #[arg(value_name = "IN")]
     input: PathBuf,
     /// Developed picture: .png (display-coded) or .exr (linear, display-referred, not clipped); many as IN says it
@@ -43,21 +44,17 @@ pub(crate) struct Arguments {
     look: LookArguments,
     #[command(flatten)]
     camera: ExposureArguments,
-    /// Exposure in stops, or auto: the log average of the picture comes to 0.18
+    /// Exposure in stops, or auto: the log average of the picture, without a black background, comes to 0.18
     #[arg(long, default_value = "0", value_name = "STOPS|auto", allow_hyphen_values = true)]
     ev: Exposure,
     /// How the film is computed
     #[arg(long, default_value = "reference")]
     form: Form,
-    /// Transfer curve of a TIFF or PNG that comes in [default: srgb for integers, linear for floats]
-    #[arg(long, value_parser = words::<TransferCurve>())]
-    input_coding: Option<TransferCurve>,
+    #[command(flatten)]
+    picture: InputArguments,
     /// Bits of a PNG that goes out [default: 8]
     #[arg(long, value_parser = ["8", "16"], value_name = "8|16")]
     bits: Option<String>,
-    /// Most pixels of a picture that is read
-    #[arg(long, default_value_t = Limits::default().max_pixels, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
-    max_pixels: u64,
     /// Print the result as one JSON object
     #[arg(long)]
     json: bool,
@@ -116,15 +113,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         look,
         exposure: arguments.ev,
         scene,
-        input_coding: arguments.input_coding,
-        input_primaries: if arguments.look.names_input_space() {
-            InputPrimaries::OfLook
-        } else {
-            InputPrimaries::OfFile
-        },
+        input: arguments.picture.settings(arguments.look.names_input_space()),
         target,
         limits: Limits {
-            max_pixels: arguments.max_pixels,
+            max_pixels: arguments.picture.max_pixels,
             max_bytes: memory.unwrap_or_default().bytes().max(Limits::default().max_bytes),
             ..Limits::default()
         },

@@ -6,12 +6,11 @@ use std::time::UNIX_EPOCH;
 use std::{fs, io};
 
 use anyhow::Result;
-use onelight::{Look, TransferCurve, Word};
+use onelight::Look;
 use onelight_picture::PngBits;
 use sha2::{Digest, Sha256};
 
 use super::super::job::{DIGEST_KEY, Settings, Target};
-use super::super::light::InputPrimaries;
 use crate::own_stock::hex;
 use crate::picture_file::text_of_complete_picture;
 
@@ -26,7 +25,7 @@ impl Recipe {
     /// # Errors
     /// Those of compiling the look.
     pub(super) fn new(settings: &Settings) -> Result<Self> {
-        let Settings { look, film, exposure, scene, input_coding, input_primaries, target, limits: _ } = settings;
+        let Settings { look, film, exposure, scene, input, target, limits: _ } = settings;
         let mut text = String::new();
         let mut line = |key: &str, value: &dyn std::fmt::Display| {
             let _ = writeln!(text, "{key}: {value}");
@@ -36,14 +35,7 @@ impl Recipe {
         line("form", &film.describe());
         line("exposure", &format_args!("{exposure:?}"));
         line("scene", &scene.in_numbers());
-        line("input coding", &input_coding.map_or("usual", TransferCurve::word));
-        line(
-            "input primaries",
-            &match input_primaries {
-                InputPrimaries::OfFile => "of the file",
-                InputPrimaries::OfLook => "of the look",
-            },
-        );
+        line("input", &format_args!("{input:?}"));
         line(
             "target",
             &match target {

@@ -18,7 +18,7 @@ use super::digest::{Recipe, is_done};
 use super::outcome::Outcome;
 use super::plan::Frame;
 use super::progress::JobProgress;
-use crate::picture_file::open;
+use crate::picture_file::open_selected;
 
 /// Develops `frames`, as many at once as `budget` and `at_once` allow; what became of each, in their order. `done` hears
 /// of each as soon as it is known.
@@ -69,7 +69,7 @@ fn develop_frame(settings: &Settings, recipe: &Recipe, frame: &Frame, budget: &B
         if digest.as_ref().is_ok_and(|digest| is_done(&frame.output, digest)) {
             return Ok(Outcome::AlreadyDone);
         }
-        let bytes = needed(&open(&frame.input, &settings.limits)?, settings.target);
+        let bytes = needed(&open_selected(&frame.input, &settings.limits, &settings.input.selection)?, settings.target);
         let digest = digest.map_err(|error| anyhow::anyhow!("{}: cannot be read: {error}", frame.input.display()))?;
         if same_file(&frame.input, &frame.output) {
             anyhow::bail!("{}: the output would replace the picture it is made from", frame.output.display());

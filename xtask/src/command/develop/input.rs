@@ -1,0 +1,130 @@
+//! What the command line says of the picture that comes in.
+
+use std::str::FromStr;
+
+use clap::{Args, ValueEnum};
+use onelight::TransferCurve;
+use onelight_picture::{Limits, PartChoice, Selection};
+
+use crate::words::words;
+
+/// The picture that comes in: which of a file, and what its numbers mean.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Picture that comes in")]
+pub(crate) struct InputArguments {
+    /// Layer of an EXR, by its name or the last word of it [default: the one that is called a finished picture]
+    #[arg(long, value_name = "NAME")]
+    layer: Option<String>,
+    /// Part of an EXR, by its number from 1 or its name
+    #[arg(long, value_name = "N|NAME", value_parser = part)]
+    part: Option<PartChoice>,
+    /// Transfer curve of a TIFF, PNG, JPEG or Radiance picture [default: what the file says, else srgb for integers, linear
+    /// for floats]
+    #[arg(long, value_parser = words::<TransferCurve>())]
+    input_coding: Option<TransferCurve>,
+    /// What the white of the picture's space is [default: relative; absolute for XYZ]
+    #[arg(long)]
+    input_white: Option<InputWhite>,
+    /// What lies behind a picture with alpha, scene-linear and before --ev; none keeps the alpha [default: none, and black
+    /// where there is light without coverage]
+    #[arg(long, value_name = "none|black|R,G,B")]
+    background: Option<Background>,
+    /// Most pixels of a picture that is read
+    #[arg(long, default_value_t = Limits::default().max_pixels, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) max_pixels: u64,
+}
+
+/// The same, for every picture of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct InputSettings {
+    pub(super) selection: Selection,
+    /// Transfer curve, where it was named.
+    pub(super) coding: Option<TransferCurve>,
+    pub(super) primaries: InputPrimaries,
+    pub(super) white: Option<InputWhite>,
+    pub(super) background: Option<Background>,
+}
+
+/// Whose word counts for the primaries of a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum InputPrimaries {
+    /// The file's, and the look's where it says nothing.
+    OfFile,
+    /// Those of the look, whatever the file says.
+    OfLook,
+}
+
+/// What (1, 1, 1) of the picture's space is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum InputWhite {
+    /// White, whatever the white of the space: pictures are balanced to their spaces
+    Relative,
+    /// Light of that chromaticity, seen beside D65: one light is one colour in every space
+    Absolute,
+}
+
+/// What lies behind a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Background {
+    /// Nothing: what comes out has the same alpha.
+    None,
+    /// Light of this colour, in the picture's own space.
+    Light([f32; 3]),
+}
+
+impl FromStr for Background {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let expected = || "expected none, black, or red, green and blue such as 0.18,0.18,0.18".to_owned();
+        match text {
+            "none" => return Ok(Self::None),
+            "black" => return Ok(Self::Light([0.0; 3])),
+            _ => {}
+        }
+        let numbers: Option<Vec<f32>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+        match numbers.as_deref() {
+            Some(&[r, g, b]) if [r, g, b].iter().all(|v: &f32| v.is_finite() && *v >= 0.0) => {
+                Ok(Self::Light([r, g, b]))
+            }
+            _ => Err(expected()),
+        }
+    }
+}
+
+fn part(text: &str) -> Result<PartChoice, String> {
+    match PartChoice::from(text) {
+        PartChoice::Number(0) => Err("expected a number from 1, or a name".to_owned()),
+        choice => Ok(choice),
+    }
+}
+
+impl InputArguments {
+    /// For the pictures of a run; `names_space` where the command line has the picture's primaries too.
+    pub(super) fn settings(&self, names_space: bool) -> InputSettings {
+        InputSettings {
+            selection: Selection { layer: self.layer.clone(), part: self.part.clone() },
+            coding: self.input_coding,
+            primaries: if names_space { InputPrimaries::OfLook } else { InputPrimaries::OfFile },
+            white: self.input_white,
+            background: self.background,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn backgrounds_are_words_or_three_numbers() {
+        assert_eq!("none".parse(), Ok(Background::None));
+        assert_eq!("black".parse(), Ok(Background::Light([0.0; 3])));
+        assert_eq!("0.5, 1,2".parse(), Ok(Background::Light([0.5, 1.0, 2.0])));
+        for text in ["", "white", "1", "1,2", "1,2,3,4", "-1,0,0", "nan,0,0", "1,2,inf"] {
+            assert!(text.parse::<Background>().is_err(), "{text}");
+        }
+        assert!(part("0").is_err());
+        assert_eq!(part("2"), Ok(PartChoice::Number(2)));
+    }
+}
