@@ -1,4 +1,4 @@
-//! OpenEXR, PNG and TIFF pictures in bands of rows: straight `f32` RGB with or without alpha in, OpenEXR and PNG out.
+//! OpenEXR, PNG, TIFF, JPEG and Radiance pictures in bands of rows: straight `f32` RGB with or without alpha in, OpenEXR and PNG out.
 //!
 //! - [`open`] gives a [`PictureReader`]: its [`Description`], then one [`Band`] of about a million pixels after the other;
 //! - [`write_exr`] and [`write_png`] take a [`Description`] and the bands that were made of a picture's, and hand a
@@ -42,7 +42,7 @@
 //!
 //! # Colour
 //! Values are those of the file: linear for OpenEXR and floating-point TIFF, 0 to 1 for integers, whose transfer curve the
-//! caller undoes; [`Description::source`] hints at which. NaN, infinities and negatives are kept. Colour that a file holds
+//! caller undoes: [`Description::transfer`] is the one that the file names, [`Description::source`] hints at which is usual. NaN, infinities and negatives are kept. Colour that a file holds
 //! premultiplied is divided by its coverage on the way in and multiplied on the way out, so that a caller sees the colour of
 //! things and not of how much of a pixel they cover. Where coverage is 0, negative, not finite or subnormal, colour is left
 //! as it is in both directions.
@@ -52,10 +52,10 @@
 //! the standard error calls [`silence_panics_while_reading`] at the start of the program.
 //!
 //! # Features
-//! `exr`, `png` and `tiff`, all on by default: the formats that are built.
+//! `exr`, `hdr`, `jpeg`, `png` and `tiff`, all on by default: the formats that are built. `icc`, on too: ICC profiles are read.
 //!
 //! # Out of scope
-//! Deep data, subsampled channels, HTJ2K; CMYK and JPEG-compressed TIFF, camera raw; ICC profiles; animation; writing TIFF;
+//! Deep data, subsampled channels, HTJ2K; CMYK, JPEG-compressed TIFF, camera raw; ICC profiles made of tables; gain maps; animation;
 //! conversion between colour spaces; paths.
 #![cfg_attr(
     not(all(feature = "exr", feature = "hdr", feature = "icc", feature = "jpeg", feature = "png", feature = "tiff")),

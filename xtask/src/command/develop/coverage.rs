@@ -45,13 +45,17 @@ impl CoverageSeen {
             }
             seen
         });
-        let sum = |a: Self, b: Self| Self {
-            pixels: a.pixels + b.pixels,
-            covered: a.covered + b.covered,
-            uncovered_light: a.uncovered_light + b.uncovered_light,
-            hard: a.hard + b.hard,
-        };
-        *self = sum(*self, seen.reduce(Self::default, sum));
+        *self = self.with(seen.reduce(Self::default, Self::with));
+    }
+
+    /// What both saw.
+    fn with(self, other: Self) -> Self {
+        Self {
+            pixels: self.pixels + other.pixels,
+            covered: self.covered + other.covered,
+            uncovered_light: self.uncovered_light + other.uncovered_light,
+            hard: self.hard + other.hard,
+        }
     }
 
     /// What to do with it; `notes` gets what the user should know.
