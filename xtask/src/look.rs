@@ -27,7 +27,7 @@ pub(crate) struct LookArguments {
     #[arg(long, value_name = "FILE")]
     look: Option<PathBuf>,
     /// Film in the camera, such as kodak-5207 (`cargo xtask stocks` lists all), or a folder with a data sheet of your own in
-    /// the form of stocks/kodak-5207 [default: kodak-5207]
+    /// the form of stocks/kodak-5207 [default: kodak-5207]; bake --for ocio takes several between commas
     #[arg(long, value_name = "ID|DIR")]
     camera: Option<String>,
     /// Film that a negative is printed on, or a folder with its data sheet, or none [default: kodak-2383 for negatives]
@@ -171,8 +171,20 @@ impl Named {
 impl LookArguments {
     /// The look that the arguments describe.
     pub(crate) fn chosen(&self) -> Result<ChosenLook> {
+        self.chosen_with(self.camera.as_deref())
+    }
+
+    /// The looks that the arguments describe where `--camera` holds several films between commas.
+    pub(crate) fn each(&self) -> Result<Vec<ChosenLook>> {
+        match self.camera.as_deref().filter(|words| words.contains(',')) {
+            Some(words) => words.split(',').map(|word| self.chosen_with(Some(word.trim()))).collect(),
+            None => Ok(vec![self.chosen()?]),
+        }
+    }
+
+    fn chosen_with(&self, camera: Option<&str>) -> Result<ChosenLook> {
         let mut keys = self.look.as_deref().map_or_else(|| Ok(ProcessKeys::default()), read)?;
-        let (camera, print) = self.films(&keys)?;
+        let (camera, print) = self.films(camera, &keys)?;
         (keys.camera, keys.camera_sheet, keys.camera_sha256) = camera.keys();
         (keys.print, keys.print_sheet, keys.print_sha256) = match print.as_ref().map(Named::keys) {
             Some((id, sheet, sha256)) => (Some(id), sheet, sha256),
@@ -192,14 +204,14 @@ impl LookArguments {
     }
 
     /// The film in the camera and the print film: the command line's, else those of the description.
-    fn films(&self, keys: &ProcessKeys) -> Result<(Named, Option<Named>)> {
+    fn films(&self, camera: Option<&str>, keys: &ProcessKeys) -> Result<(Named, Option<Named>)> {
         let file = self.look.as_deref().unwrap_or(Path::new(""));
         let print = match (&self.print, &keys.print) {
             (Some(word), _) => ProcessKeys::parse_print(word)?.map(|word| Named::of_word(&word)).transpose()?,
             (None, Some(id)) => Some(Named::of_keys(file, "print", id, keys.print_sheet())?),
             (None, None) => None,
         };
-        let Some(word) = &self.camera else {
+        let Some(word) = camera else {
             return Ok((Named::of_keys(file, "camera", &keys.camera, keys.camera_sheet())?, print));
         };
         let camera = Named::of_word(word)?;

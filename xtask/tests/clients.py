@@ -2,8 +2,8 @@
 """Applies OpenColorIO to baked LUT files and compares it with our own output.
 
 The folder holds the files and probes.txt: a first line "# r g b FILE FILE ...", then one line per colour with the
-scene-linear input and our output for each FILE, three numbers each. A FILE may be a .clf, a .cube, or a .spi3d; beside
-the last lies a configuration with its shaper, the only .ocio of the folder, through which it is applied.
+scene-linear input and our output for each FILE, three numbers each. A FILE may be a .clf, a .cube, or an .ocio, of which
+the usual view is taken.
 
 OpenColorIO's shaders are compiled and run too, and compared with OpenColorIO on the processor.
 
@@ -34,15 +34,12 @@ def read_probes(path):
 
 def processor(path):
     """OpenColorIO's processor for one file."""
-    if path.suffix == ".spi3d":
-        [configuration] = path.parent.glob("*.ocio")
-        config = ocio.Config.CreateFromFile(str(configuration))
+    if path.suffix == ".ocio":
+        config = ocio.Config.CreateFromFile(str(path))
         config.validate()
-        scene = config.getColorSpace(ocio.ROLE_SCENE_LINEAR).getName()
-        looks = [name for name in config.getColorSpaceNames() if name != scene]
-        if len(looks) != 1:
-            sys.exit(f"{configuration}: found colour spaces {looks}, expected one beside {scene!r}")
-        return config.getProcessor(scene, looks[0])
+        display = config.getDefaultDisplay()
+        view = ocio.DisplayViewTransform(ocio.ROLE_SCENE_LINEAR, display, config.getDefaultView(display))
+        return config.getProcessor(view)
     transform = ocio.FileTransform(str(path))
     transform.setInterpolation(ocio.INTERP_TETRAHEDRAL)
     return ocio.Config.CreateRaw().getProcessor(transform)

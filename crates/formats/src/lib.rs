@@ -4,7 +4,8 @@
 //! |---|---|---|
 //! | `.cube` of Adobe and Resolve | [`CubeFile`] | `cube` |
 //! | Common LUT Format, `.clf` | [`ClfProcess`] | `clf` |
-//! | `.spi3d`, with an OpenColorIO configuration | [`spi3d`], [`Spi3dConfig`] (written only) | `spi3d` |
+//! | `.spi3d` | [`spi3d`] | `spi3d` |
+//! | OpenColorIO configuration with looks as views | [`OcioConfig`] (written only) | `ocio` |
 //! | Hald CLUT, a PNG for photo editors | [`hald`] | `pictures` |
 //! | strip, a PNG for game engines | [`strip`] | `pictures` |
 //! | KTX2, a 3D texture | [`ktx2`] (written only) | `ktx2` |
@@ -55,6 +56,7 @@
         feature = "cube",
         feature = "clf",
         feature = "spi3d",
+        feature = "ocio",
         feature = "pictures",
         feature = "ktx2",
         feature = "direct-json"
@@ -74,6 +76,8 @@ pub mod hald;
 #[cfg(feature = "ktx2")]
 pub mod ktx2;
 mod node_order;
+#[cfg(feature = "ocio")]
+mod ocio;
 #[cfg(feature = "pictures")]
 mod picture;
 #[cfg(feature = "spi3d")]
@@ -87,10 +91,10 @@ pub use clf::ClfProcess;
 #[cfg(feature = "cube")]
 pub use cube::CubeFile;
 pub use error::Error;
+#[cfg(feature = "ocio")]
+pub use ocio::{OcioConfig, OcioSpace, OcioView};
 #[cfg(feature = "pictures")]
 pub use picture::PngDepth;
-#[cfg(feature = "spi3d")]
-pub use spi3d::Spi3dConfig;
 #[cfg(feature = "pictures")]
 pub use strip::StripGreen;
 

@@ -1,10 +1,6 @@
-//! `.spi3d`: a table as text, and the OpenColorIO configuration that gives it a shaper.
-
-mod config;
+//! `.spi3d`: a table as text.
 
 use std::io::{BufWriter, Read, Write};
-
-pub use config::Spi3dConfig;
 
 use onelight_lut::Lut3d;
 
@@ -17,7 +13,7 @@ const MAX_BYTES: u64 = 1 << 30;
 
 /// Writes a table as `.spi3d`, the 3D table of Sony Pictures Imageworks, over coordinates from 0 to 1.
 ///
-/// The format has neither a shaper nor comments: [`Spi3dConfig`] is what goes beside it. OpenColorIO clamps what
+/// The format has neither a shaper nor comments: a [`crate::OcioConfig`] can go beside it. OpenColorIO clamps what
 /// goes in to 0 to 1. Numbers are the shortest decimals that read back as the same `f32`.
 ///
 /// # Errors

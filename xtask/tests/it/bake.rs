@@ -168,3 +168,23 @@ fn options_of_bake_that_would_do_nothing_are_refused() {
         assert!(sentence.contains(says), "{arguments}: {sentence}");
     }
 }
+
+#[test]
+fn several_films_are_views_of_one_configuration() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let films = "kodak-5207,fuji-velvia-50";
+    done(folder, &["bake", "--for", "blender,ocio", "--camera", films, "--quick", "--out", "a"]);
+    let names = ["fuji-velvia-50", "kodak-5207_kodak-2383"];
+    let clf = names.map(|name| format!("{name}.scene-linear.clf"));
+    let toml = names.map(|name| format!("{name}.toml"));
+    assert_eq!(files(&folder.join("a")), [&clf[0], &toml[0], &clf[1], &toml[1], "look.ocio"]);
+    let config = fs::read_to_string(folder.join("a/look.ocio")).unwrap();
+    for name in names {
+        assert!(config.contains(&format!("- !<View> {{name: \"{name}\", colorspace: \"{name}\"}}")), "{config}");
+        assert!(config.contains(&format!("src: \"{name}.scene-linear.clf\"")), "{config}");
+    }
+    assert!(refused(folder, &["bake", "--camera", films]).contains("--for ocio"));
+    assert!(refused(folder, &["bake", "--for", "ocio,ffmpeg", "--camera", films]).contains("--for ocio"));
+    assert!(refused(folder, &["bake", "--for", "ocio", "--camera", "kodak-5207,"]).contains("error: "));
+}

@@ -81,15 +81,18 @@ fn opencolorio_gives_what_we_give() {
     for camera in ["kodak-5207", "fuji-velvia-50"] {
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path();
-        bake(folder, &["--camera", camera, "--form", "structured", "--size", "17", "--quick"]);
+        bake(folder, &["--camera", camera, "--for", "ocio", "--quick"]);
         let film = onelight::Process::for_camera(camera).unwrap().compile().unwrap();
-        let structured = film.structured(&onelight::StructuredSettings { size: 17, ..Default::default() }).unwrap();
+        let structured = film.structured(&onelight::StructuredSettings::default()).unwrap();
         let clf = ClfProcess::read(open(&folder.join(SCENE_CLF))).unwrap();
         for rgb in colours() {
             let (ours, read) = (structured.apply(rgb), clf.apply(rgb));
             assert!((0..3).all(|c| (ours[c] - read[c]).abs() < 5e-5), "{rgb:?}: {ours:?} and {read:?}");
         }
-        try_in_opencolorio(folder, &[(SCENE_CLF, &|rgb| structured.apply(rgb))]);
+        try_in_opencolorio(
+            folder,
+            &[(SCENE_CLF, &|rgb| structured.apply(rgb)), ("look.ocio", &|rgb| structured.apply(rgb))],
+        );
 
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path();
@@ -100,7 +103,10 @@ fn opencolorio_gives_what_we_give() {
         assert_eq!(&table, cube.lut3d().unwrap());
         let apply_cube = |rgb| cube.apply(rgb, Interpolation::Tetrahedral);
         let apply_clf = |rgb| clf.apply(rgb);
-        try_in_opencolorio(folder, &[(SCENE_CUBE, &apply_cube), (SCENE_CLF, &apply_clf), (SPI3D, &apply_clf)]);
+        try_in_opencolorio(
+            folder,
+            &[(SCENE_CUBE, &apply_cube), (SCENE_CLF, &apply_clf), ("look.scene-linear.ocio", &apply_clf)],
+        );
     }
 }
 

@@ -7,6 +7,7 @@ mod cube;
 mod direct_json;
 mod hald;
 mod ktx2;
+mod ocio;
 mod spi3d;
 mod strip;
 mod tables;

@@ -1,5 +1,5 @@
-use onelight_formats::{Spi3dConfig, spi3d};
-use onelight_lut::{Interpolation, Lut3d, PlainLut, Shaper};
+use onelight_formats::spi3d;
+use onelight_lut::Lut3d;
 
 use crate::tables::bent;
 
@@ -63,24 +63,5 @@ fn bad_files_are_refused_with_their_line() {
     // Of the last number any first digits would do.
     for end in 0..good.trim_end().rfind(' ').unwrap() {
         assert!(spi3d::read(&good.as_bytes()[..end]).is_err(), "{end}");
-    }
-}
-
-#[test]
-fn the_configuration_holds_the_shaper() {
-    let shaper = Shaper::log2(0.25, 15.75).unwrap();
-    let lut = PlainLut::new(shaper, bent(2), Interpolation::Trilinear);
-    let mut bytes = Vec::new();
-    let config = Spi3dConfig::new(&lut, "a \"b\".spi3d").with_look("x\\y").with_comments(["one\ntwo"]);
-    config.write(&mut bytes).unwrap();
-    let text = String::from_utf8(bytes).unwrap();
-    for line in [
-        "# one\n# two\n",
-        "name: \"x\\\\y\"\n",
-        "max_in_value: 15.75,",
-        "{base: 2, log_side_slope: 0.16666666666666666, lin_side_slope: 4, lin_side_offset: 1}",
-        "{src: \"a \\\"b\\\".spi3d\", interpolation: linear}",
-    ] {
-        assert!(text.contains(line), "{line} in {text}");
     }
 }

@@ -2,12 +2,11 @@
 
 use std::io::Write;
 
-use onelight_formats::{
-    ClfProcess, CubeFile, PngDepth, Spi3dConfig, StripGreen, direct_json, hald, ktx2, spi3d, strip,
-};
+use onelight_formats::{ClfProcess, CubeFile, OcioView, PngDepth, StripGreen, direct_json, hald, ktx2, spi3d, strip};
 use onelight_lut::{DirectForm, Domain, Interpolation, Lut3d, Storage};
 
 use super::form::{Baked, BakedForm};
+use super::ocio;
 use super::recipe::Form;
 use crate::error::{Error, ErrorKind};
 use crate::word::{Word as _, words};
@@ -261,7 +260,8 @@ impl Baked {
         let mut files = vec![BakedFile { name: name.clone(), bytes }];
         if let BakedForm::Plain(lut) = self.form() {
             let mut bytes = Vec::new();
-            Spi3dConfig::new(lut, &name).with_look(self.name()).with_comments(comments).write(&mut bytes)?;
+            let view = OcioView::of_table(self.name(), &name, lut)?;
+            ocio::config(self.spaces())?.with_view(view).with_comments(comments).write(&mut bytes)?;
             files.push(BakedFile { name: self.file_name("ocio"), bytes });
         }
         Ok(files)

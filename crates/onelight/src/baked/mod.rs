@@ -14,6 +14,8 @@ mod coordinate;
 mod files;
 mod form;
 mod labels;
+#[cfg(feature = "formats")]
+mod ocio;
 mod recipe;
 mod shaper_fit;
 mod smallest;
@@ -24,6 +26,8 @@ pub use coordinate::Coordinate;
 #[cfg(feature = "formats")]
 pub use files::{AsWritten, BakedFile, FileFormat};
 pub use form::{Baked, BakedForm};
+#[cfg(feature = "formats")]
+pub use ocio::ocio_config;
 pub use recipe::{EntryRange, Form, Recipe, ShaperChoice};
 pub use smallest::smallest_under;
 #[cfg(feature = "formats")]

@@ -90,7 +90,7 @@ impl Target {
             Self::Ocio => vec![table(
                 Recipe::of(Form::Structured),
                 FileFormat::Clf,
-                "oiiotool --colorconfig look.ocio --ociodisplay sRGB VIEW, or FileTransform from scene-linear light",
+                "oiiotool --colorconfig look.ocio IN --ociodisplay default default -o OUT; or a FileTransform from scene-linear light",
             )],
             Self::Blender => vec![table(
                 Recipe::of(Form::Structured),
@@ -146,6 +146,12 @@ impl Target {
                 "load it as a user LUT or look over a log picture of full range",
             )],
         }
+    }
+
+    /// Whether it loads an OpenColorIO configuration ([`ocio_config`](super::ocio_config)) around its tables.
+    #[must_use]
+    pub fn takes_ocio_config(self) -> bool {
+        matches!(self, Self::Ocio | Self::Blender | Self::Nuke)
     }
 
     /// The display coding that its pictures usually have, where that is not sRGB's.

@@ -4,7 +4,7 @@ mod measured;
 
 use std::fmt::Write as _;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use onelight::baked::{Baked, FileFormat, Form};
 use onelight::{Look, Process, Word as _};
 use serde_json::{Value, json};
@@ -23,24 +23,39 @@ const CUBE_STOPS: f64 = 14.0;
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let mut clock = Clock::default();
-    let look = arguments.look.chosen()?;
-    let process = &look.process;
-    let film = clock.time("compile", || look.look())?;
-    let scene = clock.time("scene", || scene_colours::read(&arguments.scene, process))?;
-    let jobs = clock.time("choose", || job::jobs(arguments, &film))?;
-    let mut tables = Vec::new();
-    for job in jobs {
-        tables.push(Table::new(arguments, &look, &film, job, scene.as_deref(), &mut clock)?);
+    let looks = arguments.look.each()?;
+    let config = arguments.programs().iter().any(|target| target.takes_ocio_config());
+    if looks.len() > 1 && !(config && arguments.programs().iter().all(|target| target.takes_ocio_config())) {
+        bail!(
+            "--camera: several films go into one OpenColorIO configuration, expected --for ocio, blender or nuke with them"
+        );
     }
+    let mut tables = Vec::new();
+    for look in &looks {
+        let film = clock.time("compile", || look.look())?;
+        let scene = clock.time("scene", || scene_colours::read(&arguments.scene, &look.process))?;
+        for job in clock.time("choose", || job::jobs(arguments, &film))? {
+            tables.push(Table::new(arguments, look, &film, job, scene.as_deref(), &mut clock)?);
+        }
+    }
+    let process = &looks[0].process;
     let folder = match &arguments.out {
         Some(folder) => folders::make(folder)?,
         None => folders::output(&process.name())?,
     };
     let mut files = AtomicFiles::in_folder(&folder);
+    // Several looks in one folder go by the names of their films.
+    let stem = |name: &str| if looks.len() > 1 { name.to_owned() } else { "look".to_owned() };
     for table in &mut tables {
-        clock.time("write", || table.write(&mut files))?;
+        let stem = stem(table.baked.name());
+        clock.time("write", || table.write(&mut files, &stem))?;
     }
-    files.add("look.toml", look.text_in(&folder).into_bytes());
+    for look in &looks {
+        files.add(&format!("{}.toml", stem(&look.process.name())), look.text_in(&folder).into_bytes());
+    }
+    if config {
+        files.add("look.ocio", ocio_config(&tables)?);
+    }
     let mut json = json(process, &tables);
     if !arguments.quick {
         files.add("look.json", serde_json::to_vec_pretty(&json)?);
@@ -59,6 +74,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     json["files"] = shown.into();
     json["seconds"] = clock.json();
     Ok(Report { text, json, as_json: arguments.json })
+}
+
+/// The configuration around the structured tables, each under the name of its films.
+fn ocio_config(tables: &[Table]) -> Result<Vec<u8>> {
+    let structured = tables.iter().filter(|table| table.job.recipe.form == Form::Structured);
+    let views: Vec<(&Baked, &str)> = structured
+        .flat_map(|table| table.names.iter().map(|name| (&table.baked, name.as_str())))
+        .filter(|(_, name)| name.ends_with(".clf"))
+        .collect();
+    let comments: Vec<String> = views
+        .iter()
+        .flat_map(|(baked, file)| [format!("{}: {file}", baked.title()), format!("  {}", baked.output_in_words())])
+        .collect();
+    Ok(onelight::baked::ocio_config(&views, &comments)?)
 }
 
 /// A table that was baked, and what is said of it.
@@ -106,13 +135,14 @@ impl Table {
         Ok(Self { job, baked, measured, notes, names: Vec::new() })
     }
 
-    fn write(&mut self, files: &mut AtomicFiles) -> Result<()> {
+    fn write(&mut self, files: &mut AtomicFiles, stem: &str) -> Result<()> {
         let measured = self.measured.as_ref().map(Measured::summary);
         let comments = self.baked.comments(measured.as_deref());
         for format in &self.job.formats {
             for file in self.baked.files(*format, &comments)? {
-                files.add(&file.name, file.bytes);
-                self.names.push(file.name);
+                let name = file.name.strip_prefix("look").map_or(file.name.clone(), |rest| format!("{stem}{rest}"));
+                files.add(&name, file.bytes);
+                self.names.push(name);
             }
         }
         Ok(())
