@@ -83,7 +83,7 @@ impl CellAxis {
 /// Taps over cells for a Gaussian of `sigma` pixels, what cells blur by themselves taken off.
 pub(crate) fn cell_taps(axis: &CellAxis, sigma: f64) -> Taps {
     let left = (sigma * sigma - axis.own_variance()).max(0.0).sqrt();
-    Taps::gaussian(left / axis.size as f64)
+    Taps::of(left / axis.size as f64)
 }
 
 /// Rows of means of cells.

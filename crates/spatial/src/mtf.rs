@@ -16,6 +16,8 @@ const K: [f64; 2] = [0.0, 1.5];
 const RIDGE: f64 = 0.02;
 /// Lowest published frequency must respond about as large areas do, or the curve is not scaled to them.
 const LOWEST_RESPONSE: [f64; 2] = [0.85, 1.15];
+/// Largest response that is believed.
+const MAX_RESPONSE: f64 = 3.0;
 /// A point that lies further from the fit makes the curve unusable.
 const WORST: f64 = 0.06;
 
@@ -66,7 +68,7 @@ impl MtfFit {
     /// The fit to points of frequency (cycles per mm, increasing) and response.
     ///
     /// # Errors
-    /// If there are fewer than 2 points, the response at the lowest frequency is not between 0.85 and 1.15, or a point lies more than 0.06 from
+    /// If there are fewer than 2 points, they are not in order or not numbers, the response at the lowest frequency is not between 0.85 and 1.15, or a point lies more than 0.06 from
     /// the best fit.
     pub fn of_points(points: &[(f64, f64)]) -> Result<Self, Error> {
         Self::of_layer(points, "curve", "only")
@@ -77,6 +79,12 @@ impl MtfFit {
         let [(lowest_f, lowest), _, ..] = points else {
             return Err(refuse(format!("found {} points, expected at least 2", points.len())).into());
         };
+        let increase = points.windows(2).all(|pair| pair[0].0 < pair[1].0) && *lowest_f > 0.0;
+        if !increase || !points.iter().all(|(f, r)| f.is_finite() && (0.0..=MAX_RESPONSE).contains(r)) {
+            let expected =
+                format!("expected frequencies that increase from above 0 and responses of 0 to {MAX_RESPONSE}");
+            return Err(refuse(format!("found other numbers among its points, {expected}")).into());
+        }
         let [low, high] = LOWEST_RESPONSE;
         if !(low..=high).contains(lowest) {
             let found = format!("found {lowest} at its lowest frequency, {lowest_f} cycles per mm");

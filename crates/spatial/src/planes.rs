@@ -7,6 +7,14 @@ const MAX_NUMBERS: usize = 1 << 30;
 /// What exposures are held to, so that sums of them stay finite.
 const MAX_EXPOSURE: f32 = 1e30;
 
+/// How many numbers so many rows have, before they are allocated.
+pub(crate) fn limited(what: &'static str, width: usize, rows: usize, most: usize) -> Result<usize, Error> {
+    width.checked_mul(rows).filter(|count| (1..=most).contains(count)).ok_or_else(|| {
+        let (found, expected) = (format!("{rows} rows of {width}"), format!("1 to {most} numbers"));
+        ErrorKind::Planes { what, found, expected }.into()
+    })
+}
+
 /// An exposure as it is believed: NaN counts as 0, none is negative or above 1e30.
 #[inline(always)]
 #[expect(clippy::manual_clamp, reason = "clamp hands NaN on")]
@@ -53,12 +61,8 @@ impl Planes {
         Self { width: 0, rows: 0..0, layers: [Vec::new(), Vec::new(), Vec::new()] }
     }
 
-    /// The numbers of a plane, before they are allocated.
-    pub(crate) fn limit(width: usize, rows: usize) -> Result<usize, Error> {
-        width.checked_mul(rows).filter(|count| (1..=MAX_NUMBERS).contains(count)).ok_or_else(|| {
-            let (found, expected) = (format!("{rows} rows of {width}"), format!("1 to {MAX_NUMBERS} numbers"));
-            ErrorKind::Planes { what: "planes", found, expected }.into()
-        })
+    fn limit(width: usize, rows: usize) -> Result<usize, Error> {
+        limited("planes", width, rows, MAX_NUMBERS)
     }
 
     /// Pixels in a row.

@@ -96,7 +96,7 @@ pub(crate) enum AdjacencyBlur {
 impl LayerBlurs {
     fn new(fit: &MtfFit, frame: &Frame) -> Self {
         let pitch = [frame.pitch().x_um(), frame.pitch().y_um()];
-        let taps = |um: f64| pitch.map(|pitch| Taps::gaussian(um / pitch).rounded());
+        let taps = |um: f64| pitch.map(|pitch| Taps::of(um / pitch).rounded());
         let (narrow, wide) = (taps(fit.narrow_um), taps(fit.wide_um));
         let scatters = [&narrow, &wide].iter().any(|taps| taps.iter().any(|side| !side.is_empty()));
         let scatter = scatters.then_some(Scatter { narrow_share: fit.narrow_share as f32, narrow, wide });
@@ -124,7 +124,7 @@ impl AdjacencyBlur {
         let sigma = [um / frame.pitch().x_um(), um / frame.pitch().y_um()];
         let sizes = sigma.map(|sigma| (sigma / CELLS_PER_SIGMA).floor().max(1.0) as usize);
         if sizes == [1, 1] {
-            return Self::Pixels(sigma.map(|sigma| Taps::gaussian(sigma).rounded()));
+            return Self::Pixels(sigma.map(|sigma| Taps::of(sigma).rounded()));
         }
         let [x, y] = frame.offset();
         let axes = [CellAxis::new(sizes[0], x, frame.width()), CellAxis::new(sizes[1], y, frame.height())];

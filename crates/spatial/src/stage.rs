@@ -144,9 +144,11 @@ impl SpatialStage {
         self.halation.as_ref().map(|halation| HalationCells::new(halation, &self.frame)).transpose()
     }
 
-    /// The rows of exposures that the amounts of these rows depend on.
+    /// The rows of exposures that the amounts of these rows depend on. Rows beyond the picture count as its last, none as one.
     #[must_use]
     pub fn exposure_rows(&self, rows: Range<usize>) -> Range<usize> {
+        let start = rows.start.min(self.frame.height() - 1);
+        let rows = start..rows.end.clamp(start + 1, self.frame.height());
         self.widened(self.amount_rows(rows), self.scatter_reach()[1])
     }
 
@@ -313,4 +315,60 @@ impl SpatialStage {
 fn needed_cells(axis: &crate::cells::CellAxis, rows: &Range<usize>, margin: usize) -> Range<usize> {
     let (first, last) = (axis.between(rows.start).0, axis.between(rows.end - 1).1);
     first.saturating_sub(margin)..(last + 1 + margin).min(axis.count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::format::Pitch;
+
+    /// All vector instructions of this machine.
+    fn levels() -> Vec<Level> {
+        let best = Level::new();
+        #[cfg(target_arch = "x86_64")]
+        {
+            let mut levels: Vec<Level> = best.as_sse2().map(Level::Sse2).into_iter().collect();
+            levels.extend(best.as_sse4_2().map(Level::Sse4_2));
+            levels.extend(best.as_avx2().map(Level::Avx2));
+            levels.push(best);
+            levels
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        vec![best]
+    }
+
+    #[test]
+    fn vectors_of_any_length_give_the_same_bytes() {
+        let f = onelight_stocks::find("kodak-5219").unwrap();
+        let stock = onelight_film::Stock::parse(&onelight_film::SheetText {
+            id: f.id,
+            stock_toml: f.stock_toml,
+            sensitivity_csv: f.sensitivity_csv,
+            characteristic_csv: f.characteristic_csv,
+            dye_density_csv: f.dye_density_csv,
+        });
+        let stock = stock.unwrap().with_figures(f.mtf_csv, f.granularity_csv).unwrap();
+        let frame = Frame::new([333, 70], Pitch::new(6.1, 6.1).unwrap()).unwrap();
+        let granularity = crate::AmountGranularity::of_stock(&stock).unwrap();
+        let stage = SpatialStage::new(frame)
+            .with_sharpness(&Sharpness::of_stock(&stock).unwrap())
+            .with_grain(Grain::new(granularity, frame.pitch(), crate::GrainSettings::default()).unwrap())
+            .unwrap()
+            .with_halation(Halation::new(crate::HalationSettings::default()).unwrap());
+        let mut exposures = Planes::new(333, 0..70).unwrap();
+        for y in 0..70 {
+            for row in exposures.row_mut(y) {
+                row.iter_mut().enumerate().for_each(|(x, e)| *e = ((x * 13 + y * 29) % 61) as f32 / 17.0);
+            }
+        }
+        let mut cells = stage.halation_cells().unwrap().unwrap();
+        cells.add(&exposures).unwrap();
+        let halo = cells.finish().unwrap();
+        let amounts = |level| {
+            let stage = SpatialStage { level, ..stage.clone() };
+            stage.amounts(&exposures, Some(&halo), 0..70, &|e: [f32; 3]| e.map(f32::sqrt)).unwrap()
+        };
+        let best = amounts(Level::new());
+        assert!(levels().into_iter().all(|level| amounts(level) == best));
+    }
 }

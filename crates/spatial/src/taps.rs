@@ -1,9 +1,13 @@
 use std::f64::consts::PI;
 
+use crate::constant::checked;
+use crate::error::Error;
 use crate::mtf::gaussian_response;
 
 /// Below this many pixels a Gaussian changes nothing that a pixel can show.
 const NEGLIGIBLE: f64 = 0.05;
+/// Standard deviations that are worked with, in pixels.
+const SIGMAS: [f64; 2] = [0.0, 250.0];
 /// Taps reach this many standard deviations.
 const REACH: f64 = 4.0;
 /// Intervals of Simpson's rule over a quarter period and more of the fastest cosine.
@@ -17,18 +21,26 @@ const INTERVALS: usize = 1024;
 ///
 /// ```
 /// use onelight_spatial::Taps;
-/// let taps = Taps::gaussian(1.4);
+/// let taps = Taps::gaussian(1.4)?;
 /// assert!((taps.response(0.0) - 1.0).abs() < 1e-12 && taps.side().iter().all(|tap| *tap >= 0.0));
 /// assert!((taps.response(0.2) - (-2.0 * (std::f64::consts::PI * 1.4 * 0.2f64).powi(2)).exp()).abs() < 0.001);
+/// # Ok::<(), onelight_spatial::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Taps(Vec<f64>);
 
 impl Taps {
     /// For a Gaussian with a standard deviation in pixels; none below 0.05 pixels.
-    #[must_use]
-    pub fn gaussian(sigma_pixels: f64) -> Self {
-        if sigma_pixels.is_nan() || sigma_pixels < NEGLIGIBLE {
+    ///
+    /// # Errors
+    /// If the standard deviation is not 0 to 250 pixels.
+    pub fn gaussian(sigma_pixels: f64) -> Result<Self, Error> {
+        Ok(Self::of(checked("standard deviation of a Gaussian", sigma_pixels, SIGMAS, " pixels")?))
+    }
+
+    /// For a Gaussian whose standard deviation is that of a film in checked pixels.
+    pub(crate) fn of(sigma_pixels: f64) -> Self {
+        if sigma_pixels < NEGLIGIBLE {
             return Self(Vec::new());
         }
         let radius = (REACH * sigma_pixels).ceil() as usize;

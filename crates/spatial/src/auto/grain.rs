@@ -58,6 +58,7 @@ pub fn grain_decision(grain: &Grain, frame: &Frame, greys: &[[f64; 3]], finish: 
         lightness = lightness.max(scatter(0));
         blue_yellow = blue_yellow.max(scatter(2));
     }
-    let is_visible = lightness >= LEAST_LIGHTNESS || blue_yellow >= LEAST_BLUE_YELLOW;
+    // Where no grey was given, nothing is known.
+    let is_visible = greys.is_empty() || lightness >= LEAST_LIGHTNESS || blue_yellow >= LEAST_BLUE_YELLOW;
     Decision::new(Effect::Grain, is_visible, &format!("{lightness:.2} L*, {blue_yellow:.2} b*"), frame)
 }

@@ -6,12 +6,14 @@ use crate::blur::{LANES, add_differences, copy_padded, lanes, whole_lanes};
 use crate::cells::{CellAxis, CellRows, CellSums, ExpandedRows, Expansion};
 use crate::error::{Error, ErrorKind};
 use crate::frame::Frame;
-use crate::planes::{Planes, believed};
+use crate::planes::{Planes, believed, limited};
 
 /// Cells in um: finer where the antihalation layer does not blur the ring.
 const CELL_UM: f64 = 50.0;
 const FINE_CELL_UM: f64 = 30.0;
 const FINE_BELOW_DENSITY: f64 = 0.3;
+/// Most cells of a picture: 256 MiB for each layer.
+const MAX_CELLS: usize = 1 << 26;
 /// Points along each side of a cell at which the ring's inside is summed.
 const POINTS: i32 = 12;
 
@@ -57,7 +59,7 @@ impl HalationCells {
     /// For the pictures of one frame.
     ///
     /// # Errors
-    /// If the picture has more cells than a plane may have numbers.
+    /// If the picture has more than 2^26 cells.
     pub fn new(halation: &Halation, frame: &Frame) -> Result<Self, Error> {
         let fine = halation.settings.antihalation.density() < FINE_BELOW_DENSITY;
         Self::with_cells(halation, frame, if fine { FINE_CELL_UM } else { CELL_UM })
@@ -69,8 +71,7 @@ impl HalationCells {
         let (pitch, offset) = (frame.pitch(), frame.offset());
         let x = CellAxis::new(size(pitch.x_um()), offset[0], frame.width());
         let y = CellAxis::new(size(pitch.y_um()), offset[1], frame.height());
-        // The same limit as that of planes of pixels.
-        let _ = Planes::limit(x.count, y.count)?;
+        limited("cells of halation", x.count, y.count, MAX_CELLS)?;
         let layers = halation.pull().map(|pull| {
             (pull > 0.0).then(|| LayerCells {
                 sums: CellSums::new(frame.width()),

@@ -71,7 +71,17 @@ fn curves_that_are_not_the_films_own_are_refused() {
     assert!(message("kodak-2383").is_not_published());
     let jagged = [(5.0, 1.0), (10.0, 0.6), (20.0, 0.9), (40.0, 0.3)];
     assert!(MtfFit::of_points(&jagged).unwrap_err().to_string().contains("from the best fit, expected at most 0.06"));
-    assert!(MtfFit::of_points(&[(5.0, 1.0)]).is_err());
+    for wrong in [
+        vec![(5.0, 1.0)],
+        vec![(5.0, 1.0), (5.0, 0.9)],
+        vec![(f64::NAN, 1.0), (9.0, 1.0)],
+        vec![(5.0, 1.0), (9.0, f64::NAN)],
+    ] {
+        assert!(MtfFit::of_points(&wrong).is_err(), "{wrong:?}");
+    }
+    for wrong in [-1.0, f64::NAN, 1e9] {
+        assert!(Taps::gaussian(wrong).is_err());
+    }
 }
 
 #[test]
@@ -79,7 +89,7 @@ fn taps_of_an_independent_implementation() {
     for (name, theirs) in reference()["taps"].as_object().unwrap() {
         let number =
             |key: &str| name.split_whitespace().find_map(|p| p.strip_prefix(key)).unwrap().parse::<f64>().unwrap();
-        let found = Taps::gaussian(number("s=") / number("pitch="));
+        let found = Taps::gaussian(number("s=") / number("pitch=")).unwrap();
         let theirs: Vec<f64> = theirs.as_array().unwrap().iter().map(|t| t.as_f64().unwrap()).collect();
         let all = std::iter::once(found.centre()).chain(found.side().iter().copied()).chain(std::iter::repeat(0.0));
         // Theirs are least squares over samples of frequency, ours over all of them.
@@ -97,7 +107,7 @@ fn pixels_show_the_fitted_response_up_to_near_nyquist() {
             for width in [1024, 2048, 4096] {
                 let pitch = FilmFormat::Super35.pitch(width, 1.0).unwrap().x_um();
                 let [narrow, wide, beside] =
-                    [fit.narrow_um, fit.wide_um, fit.adjacency_um].map(|um| Taps::gaussian(um / pitch));
+                    [fit.narrow_um, fit.wide_um, fit.adjacency_um].map(|um| Taps::gaussian(um / pitch).unwrap());
                 let miss = |cycles: f64| {
                     let [n, w, b] = [&narrow, &wide, &beside].map(|taps| taps.response(cycles));
                     let scatter = fit.narrow_share * n + (1.0 - fit.narrow_share) * w;
