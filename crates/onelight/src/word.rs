@@ -113,7 +113,8 @@ words! {
         Reconstruction::BoxesRaw = "boxes-raw" "three boxes, colours not balanced";
     PrinterLight, "light":
         PrinterLight::Separations = "separations" "three beams behind Wratten 70, 99 and 98",
-        PrinterLight::White = "white" "one white beam, balanced for each layer by itself";
+        PrinterLight::White = "white" "one white beam, balanced for each layer by itself",
+        PrinterLight::ColourHead = "colour-head" "an enlarger's cyan, magenta and yellow dichroic filters";
     Wratten, "filters":
         Wratten::No70 = "70" "red separation",
         Wratten::No99 = "99" "green separation",

@@ -81,7 +81,7 @@ impl Duplication {
             std::array::from_fn(|k| (0..nm.len()).map(|i| nm[i] * layer.values()[i] * beams[k].values()[i]).collect())
         });
         let weights = match printer.light {
-            PrinterLight::Separations => weights,
+            PrinterLight::Separations | PrinterLight::ColourHead => weights,
             PrinterLight::White => only_its_own(weights),
         };
         let (negative, print) = (negative, print.id().to_owned());

@@ -37,6 +37,25 @@ pub enum PrinterLight {
     /// A subtractive printer: one white beam, balanced for each layer by itself, as ideal colour-correcting filters would.
     /// The layers' sensitivities overlap in white light: prints lose chroma against separations.
     White,
+    /// The colour head of an enlarger: cyan, magenta and yellow dichroic filters moved part of the way into a tungsten lamp's light,
+    /// which is mixed. A dichroic filter holds back one third of the spectrum and nothing else, so that the three together leave
+    /// a red, a green and a blue band, each as strong as its filter lets it be: [`Printer::filtration`]. Edges at 500 and 600 nm are
+    /// stand-ins; no curve of such a head is published.
+    ColourHead,
+}
+
+/// Where the bands of [`PrinterLight::ColourHead`] meet, and how wide the steps are between them, in nm.
+const HEAD_EDGES_NM: [f64; 2] = [500.0, 600.0];
+const HEAD_STEP_NM: f64 = 4.0;
+/// The least that a dichroic filter lets through.
+const HEAD_LEAST: f64 = 0.001;
+
+/// Density that leaves the red, green or blue (0, 1, 2) of [`PrinterLight::ColourHead`].
+fn head_density(band: usize, nm: f64) -> f64 {
+    let past = |edge: f64| 1.0 / (1.0 + ((edge - nm) / HEAD_STEP_NM).exp());
+    let [blue_green, green_red] = HEAD_EDGES_NM.map(past);
+    let passed = [green_red, blue_green - green_red, 1.0 - blue_green][band];
+    -passed.max(HEAD_LEAST).log10()
 }
 
 /// The gelatin filters that are in the printer: all of [`Wratten::ALL`], or fewer to see what each is for. Without No. 70 or No. 99
@@ -140,15 +159,39 @@ impl Printer {
         let shape = self.shape();
         let lamp = black_body(Kelvin::TUNGSTEN, shape);
         let separations = PerLayer { red: Wratten::No70, green: Wratten::No99, blue: Wratten::No98 };
-        separations.zip_map(self.beam_density, |filter, grey| (filter, grey)).try_map(|(filter, grey), _| {
+        let bands = PerLayer { red: 0, green: 1, blue: 2 };
+        let beams = separations.zip_map(self.beam_density, |filter, grey| (filter, grey));
+        beams.zip_map(bands, |(filter, grey), band| (filter, grey, band)).try_map(|(filter, grey, band), _| {
             let mut density = SpectralDistribution::from_fn(shape, |_| grey)?.stacked_on(&self.glass.density(shape)?);
             let separation = (self.light == PrinterLight::Separations).then_some(filter);
+            if self.light == PrinterLight::ColourHead {
+                density = density.stacked_on(&SpectralDistribution::from_fn(shape, |nm| head_density(band, nm))?);
+            }
             for filter in separation.into_iter().chain([Wratten::No2B]).filter(|filter| self.filters.contains(*filter))
             {
                 density = density.stacked_on(&filter.density(shape)?);
             }
             Ok(lamp.through(&density.transmittance()))
         })
+    }
+}
+
+impl Printer {
+    /// What the dials of a colour head show for these lights: densities of the cyan, magenta and yellow filter (times 100 on the
+    /// dial), the least of them 0.
+    ///
+    /// ```
+    /// use onelight_film::PerLayer;
+    /// use onelight_printing::{Printer, PrinterLight, PrinterLights};
+    /// let head = Printer { light: PrinterLight::ColourHead, beam_density: PerLayer::all(0.0), ..Printer::default() };
+    /// let dials = head.filtration(PrinterLights(PerLayer { red: 10.0, green: 1.0, blue: 5.0 }));
+    /// assert_eq!((dials.red, dials.green), (0.0, 1.0));
+    /// ```
+    #[must_use]
+    pub fn filtration(self, lights: PrinterLights) -> PerLayer<f64> {
+        let bands = lights.0.zip_map(self.beam_density, |light, grey| light.log10() - grey);
+        let brightest = bands.to_array().into_iter().fold(f64::NEG_INFINITY, f64::max);
+        bands.map(|band| brightest - band)
     }
 }
 
@@ -206,6 +249,16 @@ mod tests {
         let white = Printer { light: PrinterLight::White, beam_density: PerLayer::all(0.0), ..Printer::default() };
         let white = white.beams().unwrap();
         assert!(white.red == white.green && white.green == white.blue && white.red.at(560.0).unwrap() > 0.5);
+    }
+
+    #[test]
+    fn the_bands_of_a_colour_head_are_the_whole_light_between_its_edges() {
+        let open = |light| Printer { light, beam_density: PerLayer::all(0.0), ..Printer::default() }.beams().unwrap();
+        let (head, white) = (open(PrinterLight::ColourHead), open(PrinterLight::White));
+        for nm in [420.0, 470.0, 500.0, 550.0, 600.0, 640.0, 690.0] {
+            let bands: f64 = head.as_ref().map(|beam| beam.at(nm).unwrap()).to_array().iter().sum();
+            assert!((bands / white.red.at(nm).unwrap() - 1.0).abs() < 0.0021, "{nm}");
+        }
     }
 
     #[test]

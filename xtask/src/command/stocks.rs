@@ -1,12 +1,16 @@
+mod contact_sheet;
+
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use clap::Args;
 use onelight::film::{ExposureAxis, Origin, PerLayer};
-use onelight::{FilmProcess, Printing, Process, Stock, StockKind, stock, stock_ids};
+use onelight::{FilmProcess, Image, Printing, Process, Stock, StockKind, stock, stock_ids};
 use serde_json::{Value, json};
 
+use crate::atomic_file::write_atomically;
 use crate::{Report, folders, plot};
 
 #[derive(Debug, Args)]
@@ -20,20 +24,35 @@ pub(crate) struct Arguments {
     /// Say of every camera film what is reproduced, and how nearly (docs/stocks.md says what the columns are)
     #[arg(long, alias = "likeness", conflicts_with_all = ["id", "check"])]
     fidelity: bool,
-    /// Folder for the plot of one stock [default: target/onelight/stocks]
-    #[arg(long, value_name = "DIR", requires = "id")]
+    /// Only stocks of this kind
+    #[arg(long, value_name = "KIND", value_parser = KINDS, conflicts_with_all = ["id", "check", "fidelity"])]
+    kind: Option<String>,
+    /// Only stocks by this maker
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["id", "check", "fidelity"])]
+    maker: Option<String>,
+    /// This scene-linear EXR on every chosen stock, side by side with their names in one PNG: camera films on their usual print, all
+    /// that is printed on behind a usual film
+    #[arg(long, value_name = "EXR", conflicts_with_all = ["id", "check", "fidelity"])]
+    sheet: Option<PathBuf>,
+    /// Folder for the plot of one stock, or for the sheet [default: target/onelight/stocks]
+    #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print the result as one JSON object
     #[arg(long)]
     json: bool,
 }
 
+/// What `--kind` takes: the kinds of stock, and what their pictures are made of.
+const KINDS: [&str; 8] =
+    ["negative", "reversal", "instant", "print", "paper", "reversal-print", "colour", "black-and-white"];
+
 pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let (text, json) = match &arguments.id {
         Some(id) => one(id, arguments.out.as_deref())?,
         None if arguments.check => check()?,
         None if arguments.fidelity => return fidelity(arguments),
-        None => all()?,
+        None if arguments.sheet.is_some() => shown(arguments)?,
+        None => all(&chosen(arguments)?),
     };
     Ok(Report { text, json, as_json: arguments.json })
 }
@@ -52,36 +71,97 @@ fn fidelity(arguments: &Arguments) -> Result<Report> {
     Ok(Report { text: sheet_fidelity::table(&found), json: serde_json::to_value(found)?, as_json: arguments.json })
 }
 
-fn all() -> Result<(String, Value)> {
-    let stocks: Vec<Stock> = stock_ids().map(stock).collect::<Result<_, _>>()?;
-    let mut text = format!(
-        "{:20} {:8} {:>4}  {:13} {:>13} {:12} {:16} {:8} {}\n",
-        "id", "kind", "EI", "sensitive nm", "log exposure", "axis", "aim (status A)", "+-D", "derived"
-    );
-    for stock in &stocks {
-        let (first, last) = sensitive_nm(stock);
-        let (low, high) = exposures(stock);
-        let speed = stock.exposure_index().map_or_else(|| "-".to_owned(), |ei| format!("{ei}"));
+/// The stocks of a kind, or of a maker, in the order of the list.
+fn chosen(arguments: &Arguments) -> Result<Vec<Stock>> {
+    let all: Vec<Stock> = stock_ids().map(stock).collect::<Result<_, _>>()?;
+    let words =
+        |stock: &Stock| [kind(stock), if stock.image() == Image::Silver { "black-and-white" } else { "colour" }];
+    let of_kind = |stock: &Stock| arguments.kind.as_deref().is_none_or(|kind| words(stock).contains(&kind));
+    let of_maker = |stock: &Stock| arguments.maker.as_deref().is_none_or(|m| stock.maker().eq_ignore_ascii_case(m));
+    let makers: BTreeSet<String> = all.iter().map(|stock| stock.maker().to_lowercase()).collect();
+    let found: Vec<Stock> = all.into_iter().filter(|stock| of_kind(stock) && of_maker(stock)).collect();
+    if found.is_empty() {
+        let makers: Vec<String> = makers.into_iter().collect();
+        bail!(
+            "no stock of kind {} by {}, expected a maker of {}",
+            arguments.kind.as_deref().unwrap_or("any"),
+            arguments.maker.as_deref().unwrap_or("any maker"),
+            makers.join(", ")
+        );
+    }
+    Ok(found)
+}
+
+fn all(stocks: &[Stock]) -> (String, Value) {
+    let mut text = String::new();
+    let groups = StockKind::ALL.into_iter().flat_map(|kind| [(kind, Image::Dye), (kind, Image::Silver)]);
+    for (kind, image) in groups {
+        let mut stocks = stocks.iter().filter(|stock| (stock.kind(), stock.image()) == (kind, image)).peekable();
+        if stocks.peek().is_none() {
+            continue;
+        }
+        let silver = if image == Image::Silver { ", black and white" } else { "" };
         let _ = writeln!(
             text,
-            "{:20} {:8} {speed:>4}  {:13} {:>13} {:12} {:16} {:8} {}",
-            stock.id(),
-            kind(stock),
-            format!("{first:.0}-{last:.0}"),
-            format!("{}..{}", signed(low, 2), signed(high, 2)),
-            axis(stock),
-            aim(stock),
-            format!("{:.3}{}", mean(stock.uncertainty().characteristic), if is_assumed(stock) { "~" } else { "" }),
-            derived(stock),
+            "{:31} {:4} {:>4}  {:13} {:>13} {:9} {:16} {:7} derived",
+            format!("{}{silver}", kind.word()),
+            "year",
+            "EI",
+            "sensitive nm",
+            "log exposure",
+            "axis",
+            "aim",
+            "+-D"
         );
+        for stock in stocks {
+            text.push_str(&row(stock));
+        }
+        text.push('\n');
     }
     text.push_str(
         "*    derived: the sheet states no aim\n\
+         @    a variant: `ID@VARIANT`\n\
          +-D  how far two digitisations of the sheet differ in density, rms\n\
          ~    assumed, as there is only one: three times the median of the others\n\
          `cargo xtask stocks ID` plots one.\n",
     );
-    Ok((text, Value::from(stocks.iter().map(as_json).collect::<Vec<_>>())))
+    (text, Value::from(stocks.iter().map(as_json).collect::<Vec<_>>()))
+}
+
+fn row(stock: &Stock) -> String {
+    let (first, last) = sensitive_nm(stock);
+    let (low, high) = exposures(stock);
+    let speed = stock.exposure_index().map_or_else(|| "-".to_owned(), |ei| format!("{ei}"));
+    let variants: Vec<String> = stock.variants().map(|variant| format!("@{variant}")).collect();
+    let mut row = format!(
+        "  {:29} {:4} {speed:>4}  {:13} {:>13} {:9} {:16} {:7} {}\n",
+        stock.id(),
+        stock.year(),
+        format!("{first:.0}-{last:.0}"),
+        format!("{}..{}", signed(low, 2), signed(high, 2)),
+        axis(stock),
+        aim(stock),
+        format!("{:.3}{}", mean(stock.uncertainty().characteristic), if is_assumed(stock) { "~" } else { "" }),
+        derived(stock),
+    );
+    if !variants.is_empty() {
+        let _ = writeln!(row, "    {}", variants.join(" "));
+    }
+    row
+}
+
+/// The chosen stocks as a contact sheet.
+fn shown(arguments: &Arguments) -> Result<(String, Value)> {
+    let (Some(picture), stocks) = (&arguments.sheet, chosen(arguments)?) else { bail!("--sheet needs a picture") };
+    let tiles = contact_sheet::tiles(picture, &stocks)?;
+    let folder = arguments.out.as_deref().map_or_else(|| folders::output("stocks"), folders::make)?;
+    let name = arguments.kind.as_deref().or(arguments.maker.as_deref()).unwrap_or("all");
+    let file = folder.join(format!("{}.png", name.to_lowercase()));
+    let png = contact_sheet::png(&tiles)?;
+    write_atomically(&file, |mut out| Ok(std::io::Write::write_all(&mut out, &png)?))?;
+    let looks: Vec<&str> = tiles.pictures.iter().map(|(name, _)| name.as_str()).collect();
+    let text = format!("{}\n{}\n", looks.join("\n"), folders::shown(&file));
+    Ok((text, json!({ "looks": looks, "file": folders::shown(&file) })))
 }
 
 fn one(id: &str, out: Option<&Path>) -> Result<(String, Value)> {
@@ -98,6 +178,10 @@ fn one(id: &str, out: Option<&Path>) -> Result<(String, Value)> {
     line("exposure index", stock.exposure_index().map_or_else(|| "none".to_owned(), |ei| ei.to_string()));
     line("sheet", format!("{} ({})", stock.sheet(), stock.year()));
     line("derived", derived(&stock));
+    let variants: Vec<&str> = stock.variants().collect();
+    if !variants.is_empty() {
+        line("variants", variants.join(", "));
+    }
     line("characteristic curve", format!("{:?}, axis {}", stock.densitometry(), axis(&stock)));
     line("D-min", densities(stock.characteristic().map(|curve| curve.d_min().0)));
     line("D-max", densities(stock.characteristic().map(|curve| curve.d_max().0)));
@@ -166,6 +250,8 @@ fn as_json(stock: &Stock) -> Value {
         "maker": stock.maker(),
         "kind": kind(stock),
         "exposure_index": stock.exposure_index(),
+        "image": if stock.image() == Image::Silver { "silver" } else { "dye" },
+        "variants": stock.variants().collect::<Vec<_>>(),
         "process": stock.process(),
         "balance": stock.balance(),
         "sheet": stock.sheet(),
@@ -268,7 +354,8 @@ mod tests {
 
     #[test]
     fn assumed_figures_are_marked_and_measured_ones_are_not() {
-        let (text, _) = all().unwrap();
+        let stocks: Vec<Stock> = stock_ids().map(|id| stock(id).unwrap()).collect();
+        let (text, _) = all(&stocks);
         assert!(!text.contains("-0.00"), "{text}");
         let row = |id: &str| text.lines().find(|line| line.starts_with(id)).unwrap().to_owned();
         for stock in stock_ids().map(|id| stock(id).unwrap()) {

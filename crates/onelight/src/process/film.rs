@@ -8,6 +8,7 @@ use onelight_spectra::Reconstruction;
 use super::spaces::ColourSpaces;
 use super::stock_ref::{DEFAULT_CAMERA, DEFAULT_PRINT, StockRef, default_print};
 use crate::error::{Error, ErrorKind};
+use crate::word::Word as _;
 
 /// The simulation of film, second approach of \[Gotanda2010\]: films, lights, and the RGB at both ends.
 ///
@@ -159,8 +160,12 @@ impl Printing {
 
     fn check(&self) -> Result<(), Error> {
         let separations = [Wratten::No70, Wratten::No99, Wratten::No98];
-        if self.light == PrinterLight::White && !separations.iter().all(|filter| self.filters.contains(*filter)) {
-            return Err(ErrorKind::Contradiction("light white has no separation filters: taking them out changes nothing, expected filters with 70, 99 and 98 or light separations".to_owned()).into());
+        if self.light != PrinterLight::Separations && !separations.iter().all(|filter| self.filters.contains(*filter)) {
+            let sentence = format!(
+                "light {} has no separation filters: taking them out changes nothing, expected filters with 70, 99 and 98 or light separations",
+                self.light.word()
+            );
+            return Err(ErrorKind::Contradiction(sentence).into());
         }
         Ok(())
     }

@@ -68,7 +68,7 @@ pub(crate) fn process() -> impl Strategy<Value = FilmProcess> {
         // One layer has no layer of its own for red.
         let silver = stock(print.film.id()).unwrap().image() == Image::Silver;
         let red_tail = if silver { Tail::default() } else { red_tail };
-        let filters = if light == PrinterLight::White { Filters::default() } else { filters };
+        let filters = if light == PrinterLight::Separations { filters } else { Filters::default() };
         let print = Printing { light, filters, infrared, glass, red_tail, beam_density, calibration, ..print };
         FilmProcess { print: Some(print), ..film }
     })
