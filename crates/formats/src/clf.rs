@@ -6,7 +6,7 @@ mod write;
 use crate::text::{one_line, printable};
 use op::Op;
 
-/// A file of the Common LUT Format \[S2014-006\], version 3: operations that one colour passes in turn.
+/// A file of the Common LUT Format, the Academy's version 3 \[S2014-006\] and SMPTE's \[ST2136-1\] in one: operations that one colour passes in turn.
 ///
 /// It holds a structured LUT whole, so a program that reads CLF needs nothing beside it. Written are, for a
 /// [`onelight_lut::StructuredLut`]:
@@ -24,8 +24,9 @@ use op::Op;
 /// -1e16, whose effect on the other channels differs from [`onelight_lut::StructuredLut`], where NaN counts as 0.
 ///
 /// Reading takes the operations `Matrix`, `Range`, `Log`, `Exponent`, `LUT1D` and `LUT3D` in any order and of every style,
-/// in floating-point depths. `ASC_CDL`, integer depths, half-float domains and raw halfs are refused by name. What is read
-/// is the list of operations, which [`ClfProcess::apply`] evaluates.
+/// in depths of floats and integers, the codes of which become parts of the largest: [`ClfProcess::apply`] takes and gives numbers
+/// of which 1 is white. `ASC_CDL`, half-float domains and raw halfs are refused by name; so are files without an operation or an
+/// id, and operations whose depths do not join.
 ///
 /// ```
 /// use onelight_formats::ClfProcess;

@@ -110,7 +110,8 @@ impl<'a> Lines<'a> {
 
 fn header(lines: &mut Lines<'_>) -> Result<usize, Error> {
     let (line, words) = lines.expect("SPILUT 1.0")?;
-    if !words.split_ascii_whitespace().eq(["SPILUT", "1.0"]) {
+    let heading = words.split_ascii_whitespace().map(str::to_ascii_uppercase);
+    if !heading.eq(["SPILUT", "1.0"].map(str::to_owned)) {
         return Err(Error::text(line, unexpected("first line", format!("{:?}", quoted(words)), "SPILUT 1.0")));
     }
     let (line, words) = lines.expect("3 3")?;

@@ -71,6 +71,26 @@ pub(super) fn clf() -> Result<Vec<Seed>, Fault> {
         );
         (format!("{name}.clf"), text.into_bytes())
     }));
+    let academy = r#"compCLFversion="3.0" id="a""#;
+    let (matrix, log) = (
+        r#"<Matrix inBitDepth="10i" outBitDepth="12i"><Array dim="3 3">4 0 0 0 4 0 0 0 4</Array></Matrix>"#,
+        r#"<Log inBitDepth="32f" outBitDepth="32f" style="log2"/>"#,
+    );
+    let lut = |depth| format!(r#"<LUT1D inBitDepth="{depth}" outBitDepth="32f"><Array dim="2 1">0 1</Array></LUT1D>"#);
+    let namespaced = r#"compCLFversion="3.0" id="a" xmlns="urn:AMPAS:CLF:v3.0""#;
+    let roots = [
+        ("integers", namespaced, matrix.to_owned() + &lut("12i")),
+        ("smpte", r#"xmlns="http://www.smpte-ra.org/ns/2136-1/2024""#, format!("<Id>urn:uuid:0</Id>{log}")),
+        ("refused-depths", namespaced, matrix.to_owned() + &lut("10i")),
+        ("refused-empty", academy, String::new()),
+        ("refused-nameless", r#"compCLFversion="3.0" id="""#, log.to_owned()),
+    ];
+    seeds.extend(roots.map(|(name, root, operations)| {
+        let text = format!(
+            "<?xml version=\"1.0\"?>\n<ProcessList {root}>\n<InputDescriptor>in</InputDescriptor>\n{operations}\n</ProcessList>\n"
+        );
+        (format!("{name}.clf"), text.into_bytes())
+    }));
     // All that a look needs, with the smallest table.
     let film = onelight::Process::default().compile()?;
     let lut = film.structured(&StructuredSettings { size: 2, ..Default::default() })?;

@@ -12,6 +12,9 @@ use onelight_lut::{Interpolation, Lut1d, Lut3d};
 /// The `id` of a file without a name; the format wants one.
 const NAMELESS: &str = "look";
 
+/// The namespace of the format as SMPTE has it \[ST2136-1\].
+pub(super) const NAMESPACE: &str = "http://www.smpte-ra.org/ns/2136-1/2024";
+
 /// Depths of every operation: programs take the numbers as they are.
 const DEPTHS: &str = r#"inBitDepth="32f" outBitDepth="32f""#;
 
@@ -28,9 +31,10 @@ impl ClfProcess {
     /// If the writer fails; what it took until then is an incomplete file.
     pub fn write(&self, writer: impl Write) -> Result<(), Error> {
         let mut out = BufWriter::with_capacity(1 << 16, writer);
-        let id = if self.name.is_empty() { NAMELESS } else { &self.name };
+        let id = if self.name.is_empty() { NAMELESS.to_owned() } else { id_of(&self.name) };
         writeln!(out, r#"<?xml version="1.0" encoding="UTF-8"?>"#)?;
-        write!(out, r#"<ProcessList compCLFversion="3" id="{}""#, escape(id))?;
+        // Readers of the Academy's version look for the number, those of SMPTE's for the namespace.
+        write!(out, r#"<ProcessList compCLFversion="3" xmlns="{NAMESPACE}" id="{}""#, escape(&id))?;
         if !self.name.is_empty() {
             write!(out, r#" name="{}""#, escape(&self.name))?;
         }
@@ -50,6 +54,11 @@ impl ClfProcess {
         out.flush()?;
         Ok(())
     }
+}
+
+/// A name as an identifier: one word.
+fn id_of(name: &str) -> String {
+    name.split(|c: char| c.is_whitespace() || c == ',').filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-")
 }
 
 fn element(out: &mut impl Write, name: &str, text: &str) -> io::Result<()> {
@@ -97,9 +106,12 @@ fn range(out: &mut impl Write, bounds: &Range) -> io::Result<()> {
         Beyond::Continue => r#" style="noClamp""#,
     };
     writeln!(out, "{style}>")?;
-    for (end, values) in [("min", bounds.low), ("max", bounds.high)] {
-        for (side, value) in ["In", "Out"].iter().zip(values.into_iter().flatten()) {
-            writeln!(out, "    <{end}{side}Value>{value}</{end}{side}Value>")?;
+    // First what goes in, then what comes out: SMPTE's schema is a sequence.
+    for (side, name) in ["In", "Out"].iter().enumerate() {
+        for (end, values) in [("min", bounds.low), ("max", bounds.high)] {
+            if let Some(values) = values {
+                writeln!(out, "    <{end}{name}Value>{}</{end}{name}Value>", values[side])?;
+            }
         }
     }
     Ok(())

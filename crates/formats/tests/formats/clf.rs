@@ -233,7 +233,7 @@ fn bad_operations_are_refused_with_their_line() {
         (array("LUT3D", "2 2 2 3", "&bomb;"), 5, "reference: found &bomb;"),
         (format!("<Matrix {DEPTHS}/>"), 3, "arrays of an operation: found 0, expected one"),
         (format!("<ASC_CDL {DEPTHS}/>"), 3, "operation: found <ASC_CDL>, expected Matrix"),
-        ("<Matrix inBitDepth=\"10i\" outBitDepth=\"32f\"/>".to_owned(), 3, "inBitDepth: found \"10i\", expected 32f"),
+        ("<Matrix inBitDepth=\"9i\" outBitDepth=\"32f\"/>".to_owned(), 3, "inBitDepth: found \"9i\", expected 32f"),
         ("<Matrix outBitDepth=\"32f\"/>".to_owned(), 3, "inBitDepth: found no such attribute of <Matrix>"),
         (format!("<LUT1D {DEPTHS} halfDomain=\"true\"/>"), 3, "halfDomain: found \"true\", expected false"),
         (format!("<Matrix {DEPTHS} id=\"a\" id=\"b\"/>"), 3, "attribute: found"),
@@ -272,6 +272,78 @@ fn bad_operations_are_refused_with_their_line() {
 }
 
 #[test]
+fn codes_of_integers_are_parts_of_the_largest() {
+    let file = |operations: &str| {
+        let text = format!(r#"<ProcessList xmlns="{NAMESPACE}"><Id>urn:uuid:0</Id>{operations}</ProcessList>"#);
+        ClfProcess::parse(&text).unwrap().apply([0.5, 0.25, 1.0])
+    };
+    let close = |found: [f32; 3], expected: [f32; 3]| assert_close(found, expected, 1e-6, expected);
+    // Code 1023 becomes 4 * 1023 of 4095, and an offset of 409.5 is a tenth.
+    let matrix =
+        r#"<Matrix inBitDepth="10i" outBitDepth="12i"><Array dim="3 4">4 0 0 409.5 0 4 0 0 0 0 4 0</Array></Matrix>"#;
+    close(file(matrix), [0.5 * 4092.0 / 4095.0 + 0.1, 0.25 * 4092.0 / 4095.0, 4092.0 / 4095.0]);
+    let lut = r#"<LUT1D inBitDepth="16i" outBitDepth="8i"><Array dim="2 1">0 127.5</Array></LUT1D>"#;
+    close(file(lut), [0.25, 0.125, 0.5]);
+    let range = r#"<Range inBitDepth="10i" outBitDepth="32f"><minInValue>0</minInValue><maxInValue>1023</maxInValue><minOutValue>0</minOutValue><maxOutValue>2</maxOutValue></Range>"#;
+    close(file(range), [1.0, 0.5, 2.0]);
+}
+
+const NAMESPACE: &str = "http://www.smpte-ra.org/ns/2136-1/2024";
+
+/// Elements and attributes that our files hold, in the order of \[ST2136-1\]: those of the ProcessList, then those of its nodes.
+#[test]
+fn files_are_as_st_2136_1_orders_them() {
+    const LIST: [&str; 3] = ["Description", "InputDescriptor", "OutputDescriptor"];
+    const NODES: [(&str, &[&str], &[&str]); 6] = [
+        ("Matrix", &[], &["Array"]),
+        ("Range", &["style"], &["minInValue", "maxInValue", "minOutValue", "maxOutValue"]),
+        ("Log", &["style"], &["LogParams"]),
+        ("Exponent", &["style"], &["ExponentParams"]),
+        ("LUT1D", &["interpolation"], &["Array"]),
+        ("LUT3D", &["interpolation"], &["Array"]),
+    ];
+    for lut in structured_kinds() {
+        let process = ClfProcess::from_structured(&lut).unwrap().with_name("a look").with_descriptions(["one", "two"]);
+        let written = text(&process.with_descriptors("in", "out"));
+        assert!(
+            written.contains(&format!(
+                r#"<ProcessList compCLFversion="3" xmlns="{NAMESPACE}" id="a-look" name="a look">"#
+            ))
+        );
+        let starts = written.lines().filter_map(|line| Some((line, line.trim_start().strip_prefix('<')?)));
+        let names = starts.map(|(line, start)| {
+            let name = start.split([' ', '>', '/']).next().unwrap();
+            (line.len() - line.trim_start().len(), name, line)
+        });
+        let (mut list, mut children, mut node) = (0, 0, None);
+        for (depth, name, line) in names.filter(|(_, name, _)| !name.is_empty()) {
+            match depth {
+                2 if node.is_none() && LIST.contains(&name) => {
+                    let place = LIST.iter().position(|listed| *listed == name).unwrap();
+                    assert!(place >= list, "{line}");
+                    list = place;
+                }
+                2 => {
+                    let found = NODES.iter().find(|(element, ..)| *element == name).unwrap_or_else(|| panic!("{line}"));
+                    for attribute in line.split(' ').filter_map(|word| word.split_once('=').map(|(name, _)| name)) {
+                        let common = ["inBitDepth", "outBitDepth"].contains(&attribute);
+                        assert!(common || found.1.contains(&attribute), "{line}");
+                    }
+                    (node, children) = (Some(found), 0);
+                }
+                4 => {
+                    let place = node.unwrap().2.iter().position(|listed| *listed == name);
+                    assert!(place.unwrap_or_else(|| panic!("{line}")) >= children, "{line}");
+                    children = place.unwrap();
+                }
+                _ => {}
+            }
+        }
+        assert!(node.is_some());
+    }
+}
+
+#[test]
 fn bad_files_are_refused() {
     for text in [
         "",
@@ -280,6 +352,8 @@ fn bad_files_are_refused() {
         "<Other/>",
         "<ProcessList/>",
         "<ProcessList compCLFversion=\"2\" id=\"a\"/>",
+        "<ProcessList compCLFversion=\"3\" id=\"a\"/>",
+        "<ProcessList xmlns=\"http://www.smpte-ra.org/ns/2136-1/1999\" id=\"a\"><Log inBitDepth=\"32f\" outBitDepth=\"32f\" style=\"log2\"/></ProcessList>",
         "<ProcessList compCLFversion=\"3\" id=\"a\">",
         "<ProcessList compCLFversion=\"3\" id=\"a\"></Other>",
         "<ProcessList compCLFversion=\"3\" id=\"a\"/>more",

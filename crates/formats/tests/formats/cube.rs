@@ -235,6 +235,14 @@ fn endless_inputs_end() {
 }
 
 #[test]
+fn tables_of_video_range_are_refused() {
+    let file = "LUT_3D_SIZE 2\nLUT_IN_VIDEO_RANGE\n0 0 0\n";
+    let error = CubeFile::parse(file).unwrap_err();
+    assert_eq!(error.line(), Some(2));
+    assert!(error.to_string().contains("expected a table of full range"), "{error}");
+}
+
+#[test]
 fn failing_readers_and_writers_are_told_apart() {
     struct Broken;
     impl Read for Broken {

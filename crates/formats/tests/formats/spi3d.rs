@@ -15,6 +15,7 @@ fn tables_come_back_bit_for_bit_in_any_order() {
         let table = bent(size);
         let written = text(&table);
         assert_eq!(spi3d::read(written.as_bytes()).unwrap(), table);
+        assert_eq!(spi3d::read(written.replace("SPILUT", "spilut").as_bytes()).unwrap(), table);
         let (head, body) = written.split_at(written.match_indices('\n').nth(2).unwrap().0);
         let mut lines: Vec<_> = body.trim().lines().collect();
         lines.reverse();

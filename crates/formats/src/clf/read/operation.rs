@@ -2,7 +2,7 @@ use super::content::{Content, content};
 use super::element::Element;
 use super::markup::{Markup, Part};
 use super::parameters::{exponent, log, range};
-use crate::clf::op::Op;
+use crate::clf::op::{Op, Range};
 use crate::error::{Error, TextProblem};
 use crate::node_order::{node_at, place_of};
 use crate::text::quoted;
@@ -27,13 +27,14 @@ pub(super) fn read(markup: &mut Markup<'_>, start: &Element) -> Result<Op, Error
             (at, part) => return Err(markup.unexpected(at, "content of an operation", &part, "an element")),
         }
     }
-    match start.name() {
+    let op = match start.name() {
         "Range" => range(start, &contents),
         "Log" => log(start, &contents),
         "Exponent" => exponent(start, &contents),
         _ => array(start, contents),
-    }
-    .map_err(|problem| markup.fail(start.at(), problem))
+    };
+    let depths = || Ok([code_of_one(start, "inBitDepth")?, code_of_one(start, "outBitDepth")?]);
+    op.and_then(|op| normalised(op, depths()?)).map_err(|problem| markup.fail(start.at(), problem))
 }
 
 /// Refuses operations that are not read before their content is.
@@ -43,9 +44,7 @@ fn check(start: &Element) -> Result<(), TextProblem> {
         return Err(TextProblem::Unexpected { what, found: format!("<{}>", quoted(start.name())), expected });
     }
     for depth in ["inBitDepth", "outBitDepth"] {
-        if !matches!(start.required(depth, "32f or 16f")?, "32f" | "16f") {
-            return Err(start.bad(depth, "32f or 16f"));
-        }
+        code_of_one(start, depth)?;
     }
     for (attribute, value) in [("halfDomain", "false"), ("rawHalfs", "false")] {
         if start.get(attribute).is_some_and(|found| found != value) {
@@ -53,6 +52,46 @@ fn check(start: &Element) -> Result<(), TextProblem> {
         }
     }
     Ok(())
+}
+
+/// The number that stands for 1 at a depth: codes of integers are taken as parts of the largest.
+fn code_of_one(start: &Element, depth: &'static str) -> Result<f64, TextProblem> {
+    const EXPECTED: &str = "32f, 16f, 16i, 12i, 10i or 8i";
+    match start.required(depth, EXPECTED)? {
+        "32f" | "16f" => Ok(1.0),
+        "16i" => Ok(65_535.0),
+        "12i" => Ok(4095.0),
+        "10i" => Ok(1023.0),
+        "8i" => Ok(255.0),
+        _ => Err(start.bad(depth, EXPECTED)),
+    }
+}
+
+/// The operation between numbers of which 1 is the largest code.
+fn normalised(op: Op, [input, output]: [f64; 2]) -> Result<Op, TextProblem> {
+    if [input, output] == [1.0; 2] {
+        return Ok(op);
+    }
+    let entry = |rgb: [f32; 3]| rgb.map(|v| (f64::from(v) / output) as f32);
+    Ok(match op {
+        Op::Matrix { rows, offset } => {
+            Op::Matrix { rows: rows.map(|row| row.map(|v| v * input / output)), offset: offset.map(|v| v / output) }
+        }
+        Op::Range(range) => {
+            let end = |end: Option<[f64; 2]>| end.map(|[from, to]| [from / input, to / output]);
+            Op::Range(Range { low: end(range.low), high: end(range.high), ..range })
+        }
+        Op::Lut1d(lut) => {
+            let entries = lut.entries().iter().map(|rgb| entry(*rgb)).collect();
+            Op::Lut1d(Lut1d::new(Domain::UNIT, entries).map_err(TextProblem::Table)?)
+        }
+        Op::Lut3d(lut, interpolation) => {
+            let entries = lut.entries().map(entry).collect();
+            Op::Lut3d(Lut3d::new(lut.size(), entries).map_err(TextProblem::Table)?, interpolation)
+        }
+        // Curves are between numbers of which 1 is the largest code already.
+        op @ (Op::Log { .. } | Op::Exponent { .. }) => op,
+    })
 }
 
 fn array(start: &Element, contents: Vec<Content>) -> Result<Op, TextProblem> {

@@ -56,6 +56,12 @@ impl Header {
                 let ends = numbers("DOMAIN_MAX", rest)?;
                 set(&mut self.domain_max, "DOMAIN_MAX", ends)
             }
+            // DaVinci Resolve's words for codes 64 to 940 of 1023: without them the numbers mean something else.
+            "LUT_IN_VIDEO_RANGE" | "LUT_OUT_VIDEO_RANGE" => Err(TextProblem::Unexpected {
+                what: "range of codes",
+                found: quoted(word),
+                expected: "a table of full range, 0 to 1; export it so",
+            }),
             _ => Err(TextProblem::UnknownKeyword { found: quoted(word) }),
         }
     }
