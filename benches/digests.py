@@ -14,9 +14,11 @@ import argparse
 import hashlib
 import json
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
+import zlib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SCENE = ROOT / "fixtures" / "scene" / "scene.exr"
@@ -57,9 +59,28 @@ def run(program, arguments):
     return result.returncode, result.stderr.strip()
 
 
-def digest(path):
+def pixels(data):
+    """A picture without what its header says of the look: the inflated samples of a PNG, the blocks of an EXR."""
+    if data.startswith(b"\x89PNG"):
+        at, samples = 8, b""
+        while at < len(data):
+            length, kind = struct.unpack(">I4s", data[at : at + 8])
+            samples += data[at + 8 : at + 8 + length] if kind == b"IDAT" else b""
+            at += 12 + length
+        return zlib.decompress(samples)
+    at = 8
+    while data[at]:
+        at = data.index(b"\0", data.index(b"\0", at) + 1) + 1
+        at += 4 + struct.unpack("<I", data[at : at + 4])[0]
+    # Behind the header lie the offsets of the blocks, the first block's before the others.
+    return data[struct.unpack("<Q", data[at + 1 : at + 9])[0] :]
+
+
+def digest(path, only_pixels):
     """SHA-256 of a file; of look.json without its times and file names."""
     data = path.read_bytes()
+    if only_pixels and path.name.startswith("scene."):
+        data = pixels(data)
     if path.name == "look.json":
         report = json.loads(data)
         for key in ("files", "seconds"):
@@ -68,40 +89,44 @@ def digest(path):
     return hashlib.sha256(data).hexdigest()
 
 
-def record(program, folder, name, arguments, found):
+def record(program, folder, name, arguments, found, only_pixels):
     status, said = run(program, arguments)
     print(f"{name}: status {status}", file=sys.stderr)
     if status != 0:
         found[name] = {"refused": said.replace(str(folder), "")}
         return
     files = sorted(path for path in folder.rglob("*") if path.is_file())
-    found[name] = {str(path.relative_to(folder)): digest(path) for path in files}
+    found[name] = {str(path.relative_to(folder)): digest(path, only_pixels) for path in files}
 
 
-def digests(program):
+def digests(program, preset, only_pixels):
     found = {}
     with tempfile.TemporaryDirectory() as temporary:
         for look, options in LOOKS.items():
+            if preset and look not in ("first", "reinhard"):
+                options = [*options, "--preset", preset]
             bakes = {**BAKES, **({f"certified-{k}": v for k, v in CERTIFIED.items()} if look == "5207" else {})}
             for bake, recipe in bakes.items():
                 folder = pathlib.Path(temporary) / look / bake
                 folder.mkdir(parents=True)
-                record(program, folder, f"bake {bake} {look}", ["bake", *options, *recipe, "--out", str(folder)], found)
+                record(program, folder, f"bake {bake} {look}", ["bake", *options, *recipe, "--out", str(folder)], found, only_pixels)
             for form in FORMS:
                 for kind in ("png", "exr"):
                     folder = pathlib.Path(temporary) / look / f"develop-{form}-{kind}"
                     folder.mkdir(parents=True)
                     arguments = ["develop", str(SCENE), str(folder / f"scene.{kind}"), *options, "--form", form]
-                    record(program, folder, f"develop {form} {kind} {look}", arguments, found)
+                    record(program, folder, f"develop {form} {kind} {look}", arguments, found, only_pixels)
     return found
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", type=pathlib.Path, help="a built xtask, such as target/release/xtask")
+    parser.add_argument("--preset", help="a preset for the looks of film, such as talk: the settings of older versions")
+    parser.add_argument("--pixels", action="store_true", help="of developed pictures the pixels alone, not what the file says of the look")
     parser.add_argument("--against", type=pathlib.Path, metavar="JSON", help="digests of another build to compare with")
     arguments = parser.parse_args()
-    found = digests(arguments.program.resolve())
+    found = digests(arguments.program.resolve(), arguments.preset, arguments.pixels)
     if arguments.against is None:
         json.dump(found, sys.stdout, indent=1, sort_keys=True)
         print()

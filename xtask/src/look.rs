@@ -8,8 +8,8 @@ use std::sync::Arc;
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use onelight::{
-    Aim, DyeModel, Films, Look, Process, ProcessKeys, SheetKeys, Stock, StockKind, StockRef, TransferCurve,
-    WorkingSpace, stock,
+    Aim, Approach, DyeModel, Films, FormatVersion, Look, Process, ProcessKeys, SheetKeys, Stock, StockKind, StockRef,
+    TransferCurve, WorkingSpace, stock,
 };
 
 use crate::own_stock::{self, OwnStock};
@@ -79,6 +79,11 @@ impl ChosenLook {
     #[cfg(feature = "measure")]
     pub(crate) fn described(&self) -> onelight_benches::DescribedLook {
         onelight_benches::DescribedLook { process: self.process.clone(), films: self.films.clone() }
+    }
+
+    /// The same films by another process.
+    pub(crate) fn with(&self, process: Process) -> Self {
+        Self { process, films: self.films.clone(), camera: self.camera.clone() }
     }
 
     /// Asks the film in the camera; beside a tone mapping, the one that was named for it.
@@ -252,5 +257,9 @@ fn read(path: &Path) -> Result<ProcessKeys> {
     if text.len() as u64 > MAX_LOOK_BYTES {
         bail!("{name}: more than {MAX_LOOK_BYTES} bytes, expected a look.toml");
     }
-    Ok(ProcessKeys::from_toml(&name, &text)?)
+    let keys = ProcessKeys::from_toml(&name, &text)?;
+    if keys.version == FormatVersion::One && keys.approach == Approach::Second {
+        eprintln!("note: {name}: version 1 has no interimage, white or gamut: read as none, lamp and clip");
+    }
+    Ok(keys)
 }

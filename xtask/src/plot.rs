@@ -177,11 +177,10 @@ mod tests {
             let stock = stock(id).unwrap();
             let mut svg = String::new();
             draw(&mut svg, &stock).unwrap();
-            for text in
-                ["red layer", "cyan", "wavelength (nm)", "density (status ", "log10 exposure (", "log10 sensitivity ("]
-            {
+            for text in ["red layer", "wavelength (nm)", "density (", "log10 exposure (", "log10 sensitivity ("] {
                 assert!(svg.contains(text), "{id}: {text}");
             }
+            assert_eq!(svg.contains("density (status "), stock.image() == onelight::Image::Dye, "{id}");
             assert_eq!(svg.contains("18 % grey"), stock.kind().is_camera_film(), "{id}");
             assert_eq!(svg.contains("(cm\u{b2}/erg)"), stock.criterion().is_some(), "{id}");
             assert!(!svg.contains("NaN") && svg.trim_end().ends_with("</svg>"), "{id}");

@@ -4,8 +4,8 @@ use std::str::FromStr;
 
 use clap::Args;
 use onelight::{
-    Approach, Calibration, Filters, HeatGlass, Infrared, Matching, PrinterLight, ProcessKeys, Projector,
-    Reconstruction, Tail, Word, Wratten,
+    Approach, Calibration, Filters, HeatGlass, Infrared, InterImageChoice, Matching, PrintCurves, PrinterLight,
+    ProcessKeys, Projector, Reconstruction, Tail, White, WideGamut, Word, Wratten,
 };
 
 use crate::words::words;
@@ -23,6 +23,23 @@ pub(crate) struct Switches {
     /// Stops that the camera film is exposed over normal, the print corrected for it [default: 0]
     #[arg(long, value_name = "STOPS", allow_hyphen_values = true)]
     overexposure: Option<f64>,
+    /// A list of settings at once; options typed beside it win. talk: film by its sheet alone, as in 2010
+    /// (--interimage none --white lamp --gamut clip)
+    #[arg(long, value_enum)]
+    preset: Option<Preset>,
+    /// How strongly the camera film's layers inhibit each other: its own (film), none, negative, reversal, or log10 exposure for
+    /// a unit of density between layers that touch and those that do not [default: film]
+    #[arg(long = "interimage", value_name = "film|none|negative|reversal|NEAR,FAR", value_parser = inter_image)]
+    inter_image: Option<InterImageChoice>,
+    /// What light outside the sRGB primaries does [default: compress]
+    #[arg(long, value_parser = words::<WideGamut>())]
+    gamut: Option<WideGamut>,
+    /// What the characteristic curves of the print film's sheet are [default: neutral]
+    #[arg(long, value_parser = words::<PrintCurves>())]
+    print_curves: Option<PrintCurves>,
+    /// What a viewer takes for white: clear film, or the projector's bare lamp [default: film]
+    #[arg(long, value_parser = words::<White>())]
+    white: Option<White>,
     /// How exposures meet the characteristic curves [default: grey]
     #[arg(long, value_parser = words::<Matching>())]
     matching: Option<Matching>,
@@ -73,6 +90,13 @@ pub(crate) struct Switches {
     curve: Vec<Point>,
 }
 
+/// Settings that go together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Preset {
+    /// Film by its sheet alone, as the talk has it.
+    Talk,
+}
+
 /// Three numbers on the command line, for red, green and blue.
 type Triple = [f64; 3];
 /// A point of a tone curve: stops about mid grey, and the display-coded value.
@@ -86,6 +110,11 @@ impl Switches {
                 $(if let Some(value) = self.$field { $target.$field = value; })+
             };
         }
+        match self.preset {
+            Some(Preset::Talk) => keys.set_talk(),
+            None => {}
+        }
+        turn!(inter_image, gamut, print_curves, white of keys);
         turn!(approach, neutral_density, overexposure, matching, reconstruction, light, filters, beam_density of keys);
         turn!(calibration, points, infrared, glass, red_tail, projector of keys);
         turn!(contrast, brightness, temperature, saturation of keys.first);
@@ -101,6 +130,10 @@ fn filters(text: &str) -> Result<Filters, String> {
     }
     let filters: Result<Vec<Wratten>, _> = text.split(',').map(Wratten::parse).collect();
     filters.map(|filters| Filters::of(&filters)).map_err(|error| error.to_string())
+}
+
+fn inter_image(text: &str) -> Result<InterImageChoice, String> {
+    ProcessKeys::parse_inter_image(text).map_err(|error| error.to_string())
 }
 
 fn calibration(text: &str) -> Result<Calibration, String> {
@@ -145,6 +178,10 @@ mod tests {
             "--neutral-density=1",
             "--overexposure=-1",
             "--matching=absolute",
+            "--interimage=0.5,0.1",
+            "--gamut=clip",
+            "--print-curves=principal",
+            "--white=lamp",
             "--reconstruction=boxes-raw",
             "--light=white",
             "--filters=70,99",
@@ -174,6 +211,11 @@ mod tests {
         assert_eq!(turned.first.curve, [[-2.0, 0.2], [0.0, 0.5]]);
         assert_eq!(process(&["--filters=none"]).filters, Filters::of(&[]));
         assert_eq!(process(&[]), plain);
+        let mut talk = plain.clone();
+        talk.set_talk();
+        assert_eq!(process(&["--preset=talk"]), talk);
+        // What is typed beside a preset wins, before or after it.
+        assert_eq!(process(&["--white=film", "--preset=talk"]).white, White::Film);
     }
 
     #[test]

@@ -134,7 +134,7 @@ impl Made {
     ) -> Result<Vec<Self>> {
         let curves = match exact {
             Form::Structured(lut) => {
-                lut.parts().curves.size() + lut.parts().mix.as_ref().map_or(0, |mix| mix.curves.size())
+                lut.parts().develop.curves.size() + lut.parts().mix.as_ref().map_or(0, |mix| mix.curves.size())
             }
             Form::Plain(_) | Form::Direct(_) => 0,
         };
@@ -169,7 +169,7 @@ impl Made {
             let parts = form.parts();
             let terms = [parts.print.as_ref().map_or(0, |p| p.exposure.terms().len()), parts.projection.terms().len()];
             let detail = step_nm.map_or_else(|| sum(terms), |step_nm| format!("{step_nm} nm"));
-            let curves = parts.curves.size() + parts.print.as_ref().map_or(0, |p| p.curves.size());
+            let curves = parts.develop.curves.size() + parts.print.as_ref().map_or(0, |p| p.curves.size());
             made.push(Self {
                 kind: Kind::Direct,
                 detail,

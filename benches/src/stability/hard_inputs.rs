@@ -106,7 +106,7 @@ pub(super) fn plain_nodes(lut: &PlainLut) -> Case {
 
 /// Greys exactly at nodes of the film's curves as the fast forms hold them, and half-way: each layer in turn.
 pub(super) fn curve_nodes(film: &Reference, lut: &StructuredLut) -> Case {
-    let curves = &lut.parts().curves;
+    let curves = &lut.parts().develop.curves;
     let halves = 2 * (curves.size() - 1);
     let mut case = Case::new("nodes of the curves");
     for (layer, row) in row_sums(film).into_iter().enumerate() {

@@ -56,13 +56,13 @@ mod stock;
 mod table;
 mod tail;
 
-pub use amounts::DyeModel;
+pub use amounts::{DyeModel, PrintCurves};
 pub use curve::{AmountCurve, CharacteristicCurve, Direction};
 pub use densitometry::Densitometry;
 pub use dye::{DyeDensity, Dyes};
 pub use dye_densitometer::DyeDensitometer;
 pub use error::Error;
-pub use exposure::{Camera, ExposureMatrix, FrameBufferScale, Matching};
+pub use exposure::{Camera, ExposureMatrix, FrameBufferScale, Matching, WideGamut};
 pub use granularity::Granularity;
 pub use inter_image::{InterImage, InterImageEffect, InterImageOrigin};
 pub use layer::{LAYER_NAMES, PerLayer};

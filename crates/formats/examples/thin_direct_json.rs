@@ -6,7 +6,7 @@ use std::fs::File;
 use std::process::ExitCode;
 
 use onelight_formats::direct_json;
-use onelight_lut::{DirectForm, DirectParts, DirectPrint, Lut1d};
+use onelight_lut::{Develop, DirectForm, DirectParts, DirectPrint, Lut1d};
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -26,8 +26,8 @@ fn thin(from: &str, to: &str, comments: &[String]) -> Result<(), Box<dyn Error>>
     let print = parts.print.map(|DirectPrint { exposure, curves }| -> Result<_, Box<dyn Error>> {
         Ok(DirectPrint { exposure, curves: every_third(&curves)? })
     });
-    let curves = every_third(&parts.curves)?;
-    let form = DirectForm::new(DirectParts { curves, print: print.transpose()?, ..parts })?;
+    let develop = Develop { curves: every_third(&parts.develop.curves)?, ..parts.develop };
+    let form = DirectForm::new(DirectParts { develop, print: print.transpose()?, ..parts })?;
     Ok(direct_json::write(File::create(to)?, &form, comments)?)
 }
 

@@ -1,4 +1,5 @@
 mod build;
+mod coupling;
 mod op;
 mod read;
 mod write;

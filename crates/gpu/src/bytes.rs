@@ -38,8 +38,8 @@ pub struct LookBytes {
     pub curves: Vec<CurveBytes>,
 }
 
-/// Rows of the texture of points: three for the first curves, three for the second.
-pub const CURVE_ROWS: u32 = 6;
+/// Rows of the texture of points: three for the first curves, three for the second, three for what couples layers.
+pub const CURVE_ROWS: u32 = 9;
 
 /// The texels of a 3D table, red fastest, four channels each.
 ///
@@ -66,9 +66,10 @@ pub struct TableBytes {
 /// ```
 /// let form = onelight::Process::for_camera("fuji-velvia-50")?.compile()?.direct(&Default::default())?;
 /// let look = onelight_gpu::LookBytes::new(&form, onelight_lut::Storage::F16)?;
-/// // A reversal film is shown as it is; a negative has a print's curves after its own, from row 3 on.
+/// // A reversal film is shown as it is; a negative has a print's curves after its own, from row 3 on. From row 6 on lies what
+/// // its layers do to each other.
 /// let rows: Vec<_> = look.curves.iter().map(|curves| curves.row).collect();
-/// assert_eq!(rows, [0]);
+/// assert_eq!(rows, [0, 6]);
 /// assert_eq!(look.curves[0].bytes.len(), 3 * 8 * look.curves[0].points);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -131,11 +132,12 @@ impl CurveBytes {
 }
 
 /// The curves of a form with the first of their rows.
-fn curves(form: Form<'_>) -> [Option<(u32, &Lut1d)>; 2] {
+fn curves(form: Form<'_>) -> [Option<(u32, &Lut1d)>; 3] {
     let (first, second) = match form {
-        Form::Plain(_) => return [None; 2],
-        Form::Structured(lut) => (&lut.parts().curves, lut.parts().mix.as_ref().map(|mix| &mix.curves)),
-        Form::Direct(form) => (&form.parts().curves, form.parts().print.as_ref().map(|print| &print.curves)),
+        Form::Plain(_) => return [None; 3],
+        Form::Structured(lut) => (&lut.parts().develop, lut.parts().mix.as_ref().map(|mix| &mix.curves)),
+        Form::Direct(form) => (&form.parts().develop, form.parts().print.as_ref().map(|print| &print.curves)),
     };
-    [Some((0, first)), second.map(|second| (uniform::SECOND_ROW, second))]
+    let coupling = first.coupling.as_ref().map(|coupling| (uniform::COUPLING_ROW, &coupling.curves));
+    [Some((0, &first.curves)), second.map(|second| (uniform::SECOND_ROW, second)), coupling]
 }

@@ -29,7 +29,7 @@ pub enum Form<'a> {
 /// use onelight_gpu::FormKind;
 ///
 /// assert_eq!(FormKind::Structured.to_string(), "structured");
-/// assert_eq!(FormKind::ALL.map(FormKind::uniform_bytes), [32, 320, 6336]);
+/// assert_eq!(FormKind::ALL.map(FormKind::uniform_bytes), [32, 400, 6432]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FormKind {
@@ -49,8 +49,8 @@ impl FormKind {
     pub const fn uniform_bytes(self) -> usize {
         match self {
             Self::Plain => 32,
-            Self::Structured => 320,
-            Self::Direct => 6336,
+            Self::Structured => 400,
+            Self::Direct => 6432,
         }
     }
 }

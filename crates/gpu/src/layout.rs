@@ -2,8 +2,8 @@
 
 use naga::{Handle, Module, Type, TypeInner};
 use onelight_lut::{
-    Decode, DirectForm, DirectParts, DirectPrint, ExponentialSum, ExponentialTerm, Interpolation, Lut1d, Lut3d, Mix,
-    PlainLut, PowerCoding, Rows, Shaper, StructuredLut, StructuredParts,
+    Coupling, Decode, Develop, DirectForm, DirectParts, DirectPrint, ExponentialSum, ExponentialTerm, Expose, IDENTITY,
+    Interpolation, Lut1d, Lut3d, Mix, PlainLut, PowerCoding, Shaper, StructuredLut, StructuredParts,
 };
 
 use crate::form::FormKind;
@@ -12,8 +12,6 @@ use crate::shader::wgsl;
 use crate::target::TargetCoding::Stored;
 use crate::translation::valid;
 use crate::uniform::{self, UniformWords};
-
-const IDENTITY: Rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// The struct that the WGSL declares `onelight_look` to be.
 fn look(module: &Module) -> Handle<Type> {
@@ -58,6 +56,10 @@ fn curves() -> Lut1d {
     Lut1d::sample(9, [-10.0, 10.0], |x| x).unwrap()
 }
 
+fn develop() -> Develop {
+    Develop { coupling: Some(Coupling { curves: curves(), matrix: IDENTITY }), curves: curves() }
+}
+
 #[test]
 fn plain_words_are_where_the_shader_reads_them() {
     let lut =
@@ -71,9 +73,8 @@ fn structured_words_are_where_the_shader_reads_them() {
     for mix in [None, Some(mix)] {
         for decode in [Decode::Coded, Decode::Density { matrix: IDENTITY, coding: PowerCoding::LINEAR }] {
             let parts = StructuredParts {
-                input: IDENTITY,
-                exposure: IDENTITY,
-                curves: curves(),
+                expose: Expose::by(IDENTITY),
+                develop: develop(),
                 mix: mix.clone(),
                 table: Lut3d::identity(5).unwrap(),
                 decode,
@@ -92,9 +93,8 @@ fn direct_words_are_where_the_shader_reads_them() {
         let sum = || ExponentialSum::new(vec![term; count]).unwrap();
         for print in [None, Some(DirectPrint { exposure: sum(), curves: curves() })] {
             let parts = DirectParts {
-                input: IDENTITY,
-                exposure: IDENTITY,
-                curves: curves(),
+                expose: Expose::by(IDENTITY),
+                develop: develop(),
                 print,
                 projection: sum(),
                 coding: PowerCoding::LINEAR,

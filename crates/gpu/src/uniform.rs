@@ -5,8 +5,8 @@
 //! those that naga finds in the WGSL.
 
 use onelight_lut::{
-    CodingStandard, Decode, DirectForm, DirectPrint, ExponentialTerm, Interpolation, Lut1d, Mix, PlainLut, PowerCoding,
-    Rows, ShaperKind, StructuredLut,
+    CodingStandard, Decode, Develop, DirectForm, DirectPrint, ExponentialTerm, Expose, IDENTITY, Interpolation, Lut1d,
+    Mix, NegativeLight, PlainLut, PowerCoding, Rows, ShaperKind, StructuredLut,
 };
 
 use crate::error::{Error, ErrorKind};
@@ -17,9 +17,8 @@ pub const MAX_TERMS: usize = 128;
 
 /// First row of the second curves in the texture of points.
 pub(crate) const SECOND_ROW: u32 = 3;
-
-/// The input matrix that a shader may skip.
-const IDENTITY: Rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// First row of the curves by which layers act on each other.
+pub(crate) const COUPLING_ROW: u32 = 6;
 
 /// A term that adds nothing to a sum.
 const NO_TERM: ExponentialTerm = ExponentialTerm { rate: [0.0; 3], weight: [0.0; 3] };
@@ -85,6 +84,26 @@ impl UniformWords {
         Ok(())
     }
 
+    fn expose(&mut self, expose: &Expose, develop: &Develop) {
+        self.member("input").rows(&expose.input);
+        self.member("exposure").rows(&expose.matrix);
+        let coupling = develop.coupling.as_ref();
+        self.member("coupling_matrix").rows(coupling.map_or(&[[0.0; 3]; 3], |coupling| &coupling.matrix));
+    }
+
+    fn develop(&mut self, develop: &Develop) -> Result<(), Error> {
+        // A look without coupled layers holds the curves' own numbers here, which nobody reads.
+        let coupling = develop.coupling.as_ref().map_or(&develop.curves, |coupling| &coupling.curves);
+        self.member("coupling").curves(coupling, COUPLING_ROW)?;
+        self.member("curves").curves(&develop.curves, 0)
+    }
+
+    fn flags(&mut self, expose: &Expose, develop: &Develop) {
+        self.member("converts").flag(expose.input != IDENTITY);
+        self.member("compresses").flag(expose.negative == NegativeLight::Compress);
+        self.member("couples").flag(develop.coupling.is_some());
+    }
+
     fn row(&mut self, row: u32) {
         self.words.push(row);
     }
@@ -109,7 +128,7 @@ impl UniformWords {
         }
     }
 
-    /// Fills the last 16 bytes, which uniform buffers come in.
+    /// Fills up 16 bytes: what arrays begin on, and what uniform buffers come in.
     fn pad(&mut self) {
         self.words.resize(self.words.len().next_multiple_of(4), 0);
     }
@@ -144,8 +163,7 @@ pub(crate) fn plain(lut: &PlainLut, target: TargetCoding) -> Result<UniformWords
 pub(crate) fn structured(lut: &StructuredLut, target: TargetCoding) -> Result<UniformWords, Error> {
     let parts = lut.parts();
     let mut words = UniformWords::default();
-    words.member("input").rows(&parts.input);
-    words.member("exposure").rows(&parts.exposure);
+    words.expose(&parts.expose, &parts.develop);
     words.member("mix_matrix").rows(parts.mix.as_ref().map_or(&[[0.0; 3]; 3], |mix| &mix.matrix));
     let (decode, coding, coded) = match &parts.decode {
         Decode::Coded => (&[[0.0; 3]; 3], PowerCoding::LINEAR, target == TargetCoding::Srgb),
@@ -157,15 +175,15 @@ pub(crate) fn structured(lut: &StructuredLut, target: TargetCoding) -> Result<Un
     words.member("decode").rows(decode);
     words.member("mix_offset").floats(parts.mix.as_ref().map_or([0.0; 3], |mix| mix.offset));
     words.member("last").float((parts.table.size() - 1) as f32);
-    words.member("curves").curves(&parts.curves, 0)?;
-    let mix_curves = parts.mix.as_ref().map_or(&parts.curves, |Mix { curves, .. }| curves);
+    words.develop(&parts.develop)?;
+    let mix_curves = parts.mix.as_ref().map_or(&parts.develop.curves, |Mix { curves, .. }| curves);
     words.member("mix_curves").curves(mix_curves, SECOND_ROW)?;
     words.member("coding").coding(&coding);
     words.member("mixes").flag(parts.mix.is_some());
     words.member("densities").flag(matches!(parts.decode, Decode::Density { .. }));
     words.member("trilinear").flag(parts.interpolation == Interpolation::Trilinear);
     words.member("coded").flag(coded);
-    words.member("converts").flag(parts.input != IDENTITY);
+    words.flags(&parts.expose, &parts.develop);
     words.pad();
     Ok(words)
 }
@@ -180,16 +198,16 @@ pub(crate) fn direct(form: &DirectForm, target: TargetCoding) -> Result<UniformW
     }
     let (coding, coded) = coding_in_shader(&parts.coding, target);
     let mut words = UniformWords::default();
-    words.member("input").rows(&parts.input);
-    words.member("exposure").rows(&parts.exposure);
-    words.member("curves").curves(&parts.curves, 0)?;
-    let print_curves = parts.print.as_ref().map_or(&parts.curves, |DirectPrint { curves, .. }| curves);
+    words.expose(&parts.expose, &parts.develop);
+    words.develop(&parts.develop)?;
+    let print_curves = parts.print.as_ref().map_or(&parts.develop.curves, |DirectPrint { curves, .. }| curves);
     words.member("print_curves").curves(print_curves, SECOND_ROW)?;
     words.member("coding").coding(&coding);
     words.member("print_count").int(print.len().div_ceil(4));
     words.member("projection_count").int(projection.len().div_ceil(4));
     words.member("coded").flag(coded);
-    words.member("converts").flag(parts.input != IDENTITY);
+    words.flags(&parts.expose, &parts.develop);
+    words.pad();
     words.member("print").terms(print);
     words.member("projection").terms(projection);
     Ok(words)

@@ -7,6 +7,7 @@
 pub(crate) mod block;
 pub(crate) mod cells;
 pub(crate) mod coding;
+pub(crate) mod coupling;
 pub(crate) mod curves;
 pub(crate) mod dispatch;
 pub(crate) mod expose;

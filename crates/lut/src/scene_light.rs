@@ -33,13 +33,6 @@ pub(crate) fn finite_in<N: Number>(channel: N) -> N {
     if channel.partial_cmp(&channel).is_some() { channel.max(-max).min(max) } else { N::ZERO }
 }
 
-/// The log2 exposure of each layer: the first steps of the structured and the direct form.
-#[inline]
-pub(crate) fn log2_exposure<N: Number>(input: &Rows, exposure: &Rows, linear: [N; 3]) -> [N; 3] {
-    let scene = times(input, linear.map(finite_in)).map(|v| v.max(N::ZERO).min(N::of(SCENE_MAX)));
-    times(exposure, scene).map(log2_above_floor)
-}
-
 /// The logarithm to base 2 of at least [`LOG_FLOOR`].
 #[inline]
 pub(crate) fn log2_above_floor<N: Number>(exposure: N) -> N {

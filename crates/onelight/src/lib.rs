@@ -122,7 +122,9 @@ pub use error::Error;
 pub use films::Films;
 pub use look::{FirstApproach, Look, PostColour, Texels, ToneCurve, ToneMapped};
 pub use onelight_film as film;
-pub use onelight_film::{DyeModel, Image, Matching, SheetText, Stock, StockKind, Tail};
+pub use onelight_film::{
+    DyeModel, Image, InterImage, Matching, PrintCurves, SheetText, Stock, StockKind, Tail, WideGamut,
+};
 #[cfg(feature = "formats")]
 pub use onelight_formats as formats;
 #[cfg(feature = "gpu")]
@@ -130,12 +132,12 @@ pub use onelight_gpu as gpu;
 pub use onelight_lut as lut;
 pub use onelight_lut::{Channels, PixelMap, Pixels, PixelsMut};
 pub use onelight_printing as printing;
-pub use onelight_printing::{Aim, Calibration, Filters, HeatGlass, Infrared, PrinterLight, Projector, Wratten};
+pub use onelight_printing::{Aim, Calibration, Filters, HeatGlass, Infrared, PrinterLight, Projector, White, Wratten};
 pub use onelight_spectra as spectra;
 pub use onelight_spectra::{Reconstruction, TransferCurve};
 pub use process::{
     Approach, ColourSpaces, DEFAULT_CAMERA, DEFAULT_PRINT, DEFAULT_SILVER_PRINT, FilmProcess, FirstControls,
-    FirstProcess, OwnSheet, Printing, Process, StockRef, ToneMapping, ToneProcess, usual_print,
+    FirstProcess, InterImageChoice, OwnSheet, Printing, Process, StockRef, ToneMapping, ToneProcess, usual_print,
 };
 pub use process_keys::{FormatVersion, ProcessKeys, SheetKeys};
 pub use reference::{PrintStage, Reference, Stages};

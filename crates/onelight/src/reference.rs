@@ -1,7 +1,10 @@
 use nalgebra::Matrix3;
-use onelight_film::{AmountCurve, DyeAmount, ExposureMatrix, Image, LogExposure, PerLayer, Stock, Tail};
+use onelight_film::{
+    AmountCurve, DyeAmount, ExposureMatrix, Image, InterImageEffect, LogExposure, PerLayer, PrintCurves, Stock, Tail,
+    WideGamut,
+};
 use onelight_printing::{
-    Duplication, EquivalentNeutralDensity, LitDuplication, PrinterLights, Projection, Projector, print_mid_grey,
+    Duplication, EquivalentNeutralDensity, LitDuplication, PrinterLights, Projection, Projector, White, print_mid_grey,
     print_target, reversal_target,
 };
 use onelight_spectra::quantity::Power;
@@ -10,7 +13,7 @@ use onelight_spectra::{Basis, DisplayDifference, SpectralDistribution, SpectralS
 use crate::about::About;
 use crate::error::{Error, ErrorKind};
 use crate::films::Films;
-use crate::process::{Approach, ColourSpaces, FilmProcess, Printing, Process};
+use crate::process::{Approach, ColourSpaces, FilmProcess, InterImageChoice, Printing, Process};
 use crate::scene::SceneInput;
 use crate::word::Word as _;
 
@@ -27,6 +30,7 @@ pub struct Reference {
     scene: SceneInput,
     exposure: ExposureMatrix,
     mid_grey: PerLayer<LogExposure>,
+    inter_image: InterImageEffect,
     camera: PerLayer<AmountCurve>,
     print: Option<PrintStep>,
     projection: Projection,
@@ -56,10 +60,12 @@ struct PrintStep {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stages {
-    /// Scene-linear, sRGB primaries, not negative.
+    /// Scene-linear, sRGB primaries; below 0 where the light lies outside them, unless [`WideGamut::Clip`] makes it 0.
     pub scene: [f64; 3],
     /// Exposure of the camera film.
     pub exposure: PerLayer<LogExposure>,
+    /// The exposure at which each layer's own curve is read: the inter-image effect has moved it.
+    pub effective: PerLayer<LogExposure>,
     /// Dye in the camera film.
     pub amounts: PerLayer<DyeAmount>,
     /// The print, if there is one.
@@ -68,7 +74,7 @@ pub struct Stages {
     pub spectrum: SpectralDistribution<Power>,
     /// Tristimulus values of that light (CIE 1931); Y of the bare lamp is 1.
     pub xyz: [f64; 3],
-    /// Display-linear RGB; may be negative or above 1.
+    /// Display-linear RGB, the white being (1, 1, 1); may be negative or above 1.
     pub linear: [f64; 3],
     /// Display-coded RGB: what [`Reference::develop`] gives.
     pub coded: [f64; 3],
@@ -87,6 +93,7 @@ impl Reference {
     fn new(process: &FilmProcess, films: &Films) -> Result<Self, Error> {
         films.check_for(process.print.is_some())?;
         process.check()?;
+        check_silver(process, films)?;
         let film = &films.camera;
         let printing = films.print.as_ref().zip(process.print.as_ref());
         let density = EquivalentNeutralDensity::new(process.neutral_density)?;
@@ -94,13 +101,26 @@ impl Reference {
         let basis = Basis::new(process.reconstruction)?;
         let own_grey = PerLayer::all(film.mid_grey()?);
         // What takes longest, side by side.
-        let of_print = |print: &Stock| -> Result<_, Error> { Ok(process.dyes.amounts(print, print_mid_grey(print)?)?) };
+        let curves = process.print.as_ref().map_or(PrintCurves::default(), |printing| printing.curves);
+        let of_print = |print: &Stock| -> Result<_, Error> {
+            Ok(match curves {
+                PrintCurves::Neutral => process.dyes.amounts(print, print_mid_grey(print)?)?,
+                PrintCurves::Principal => PrintCurves::principal_amounts(print)?,
+            })
+        };
         let (camera, print) =
             rayon::join(|| process.dyes.amounts(film, own_grey), || films.print.as_ref().map(of_print).transpose());
         let (camera, print) = (camera?, print?);
         let shown = films.print.as_ref().unwrap_or(film);
         let projection =
             Projection::new(shown.dyes_on(SpectralShape::VISIBLE)?, viewed_by(process.projector, shown)?, &output)?;
+        let projection = match process.white {
+            White::Lamp => projection,
+            White::Film => {
+                let shown = print.as_ref().unwrap_or(&camera).as_ref();
+                projection.adapted_to(shown.map(|curve| *curve.amount_range().start()))
+            }
+        };
         let normal = match printing {
             Some(_) => own_grey,
             None => reversal_target(process.aim, density, film, own_grey, camera.as_ref(), &projection)?,
@@ -117,8 +137,12 @@ impl Reference {
         };
         Ok(Self {
             scene: SceneInput::new(process.spaces.input_space)?,
-            exposure: ExposureMatrix::new(film, &basis, process.matching, normal)?.overexposed(process.overexposure),
+            exposure: ExposureMatrix::new(film, &basis, process.matching, normal)?
+                .overexposed(process.overexposure)
+                .with_gamut(process.gamut),
             mid_grey,
+            // Of normal exposure: more of it moves colours along the same densities.
+            inter_image: InterImageEffect::new(film, process.inter_image.of(film), normal),
             camera,
             print,
             projection,
@@ -128,8 +152,8 @@ impl Reference {
 
     /// Scene-linear RGB to display-coded RGB, not clipped.
     ///
-    /// Every input gives a finite result: NaN counts as 0, each channel is held to ±[`crate::SCENE_MAX`], and what is negative in
-    /// sRGB primaries counts as 0.
+    /// Every input gives a finite result: NaN counts as 0, each channel is held to ±[`crate::SCENE_MAX`]; what is negative in
+    /// sRGB primaries lowers exposures or counts as 0, as [`WideGamut`] says.
     #[must_use]
     pub fn develop(&self, rgb: [f64; 3]) -> [f64; 3] {
         self.develop_linear(rgb).map(|v| self.coding().encode(v))
@@ -138,7 +162,7 @@ impl Reference {
     /// Scene-linear RGB to display-linear RGB, not clipped. Hard inputs as in [`Reference::develop`].
     #[must_use]
     pub fn develop_linear(&self, rgb: [f64; 3]) -> [f64; 3] {
-        self.develop_exposure(self.exposure.expose(self.scene.clean(rgb)))
+        self.develop_exposure(self.exposure.expose(self.scene.light(rgb)))
     }
 
     /// Exposure of the three layers (not its logarithm; matching vector included) to display-linear RGB: for light whose
@@ -173,11 +197,30 @@ impl Reference {
         self.print.as_ref().map(|print| print.duplication.expose(amounts))
     }
 
+    /// Whether a scene-linear colour has light outside the sRGB primaries, beyond what rounding makes of one on their edge: what
+    /// [`WideGamut`] is about.
+    ///
+    /// ```
+    /// let film = onelight::Process::default().compile()?;
+    /// assert!(film.is_outside_srgb([-0.1, 0.5, 0.5]) && !film.is_outside_srgb([0.0, 0.5, 0.5]));
+    /// # Ok::<(), onelight::Error>(())
+    /// ```
+    #[must_use]
+    pub fn is_outside_srgb(&self, rgb: [f64; 3]) -> bool {
+        let light = self.scene.light(rgb);
+        let most = light.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        light.iter().any(|v| *v < -1e-6 * most)
+    }
+
     /// Every value on the way of a scene-linear colour.
     #[must_use]
     pub fn stages(&self, rgb: [f64; 3]) -> Stages {
-        let scene = self.scene.clean(rgb);
+        let scene = match self.exposure.gamut() {
+            WideGamut::Compress => self.scene.light(rgb),
+            WideGamut::Clip => self.scene.clean(rgb),
+        };
         let exposure = self.exposure.expose(scene).map(LogExposure::of);
+        let effective = self.inter_image.effective(exposure);
         let amounts = self.camera_amounts(exposure);
         let print = self.print.as_ref().map(|print| {
             let exposure = print.duplication.expose(amounts);
@@ -189,6 +232,7 @@ impl Reference {
         Stages {
             scene,
             exposure,
+            effective,
             amounts,
             print,
             spectrum: self.projection.spectrum(shown),
@@ -210,7 +254,13 @@ impl Reference {
         self.mid_grey
     }
 
-    /// Amount of dye over exposure: the camera film's layers.
+    /// How the camera film's layers inhibit each other's development.
+    #[must_use]
+    pub fn inter_image(&self) -> &InterImageEffect {
+        &self.inter_image
+    }
+
+    /// Amount of dye over effective exposure ([`Stages::effective`]): the camera film's layers.
     #[must_use]
     pub fn camera_curves(&self) -> PerLayer<&AmountCurve> {
         self.camera.as_ref()
@@ -286,7 +336,7 @@ impl Reference {
     }
 
     pub(crate) fn camera_amounts(&self, exposure: PerLayer<LogExposure>) -> PerLayer<DyeAmount> {
-        self.camera.as_ref().zip_map(exposure, AmountCurve::amount)
+        self.camera.as_ref().zip_map(self.inter_image.effective(exposure), AmountCurve::amount)
     }
 }
 
@@ -391,6 +441,25 @@ impl Process {
             Self::Film(film) => Ok(film),
             Self::First(_) | Self::Tone(_) => Err(no_film(self.approach())),
         }
+    }
+}
+
+/// Refuses what only dyes have of films in silver.
+fn check_silver(process: &FilmProcess, films: &Films) -> Result<(), Error> {
+    let refuse = |sentence: String| Err(ErrorKind::Contradiction(sentence).into());
+    let fixed = matches!(process.inter_image, InterImageChoice::Fixed(fixed) if !fixed.is_none());
+    if fixed && films.camera.image() == Image::Silver {
+        return refuse(format!(
+            "{} has one layer, which inhibits no other: interimage changes nothing, expected film or none",
+            films.camera.id()
+        ));
+    }
+    let print = films.print.as_ref().filter(|print| print.image() == Image::Silver);
+    match (print, &process.print) {
+        (Some(print), Some(printing)) if printing.curves == PrintCurves::Principal => {
+            refuse(format!("{} has one layer: print_curves principal changes nothing, expected neutral", print.id()))
+        }
+        _ => Ok(()),
     }
 }
 

@@ -22,10 +22,15 @@ impl SceneInput {
         Ok(Self { to_srgb, from_srgb })
     }
 
-    /// sRGB primaries, 0 to [`SCENE_MAX`]: NaN counts as 0.
-    pub(crate) fn clean(&self, rgb: [f64; 3]) -> [f64; 3] {
+    /// sRGB primaries, within ±[`SCENE_MAX`]: NaN counts as 0.
+    pub(crate) fn light(&self, rgb: [f64; 3]) -> [f64; 3] {
         let srgb = self.to_srgb * Vector3::from(rgb.map(finite));
-        [srgb.x, srgb.y, srgb.z].map(|v| v.clamp(0.0, SCENE_MAX))
+        [srgb.x, srgb.y, srgb.z].map(|v| v.clamp(-SCENE_MAX, SCENE_MAX))
+    }
+
+    /// [`SceneInput::light`] with what is negative as 0.
+    pub(crate) fn clean(&self, rgb: [f64; 3]) -> [f64; 3] {
+        self.light(rgb).map(|v| v.max(0.0))
     }
 
     pub(crate) fn to_srgb(&self) -> &Matrix3<f64> {

@@ -1,8 +1,8 @@
 //! The words of `look.toml` and of the command line: one list for both.
 
-use onelight_film::{DyeModel, Matching, Tail};
+use onelight_film::{DyeModel, Matching, PrintCurves, Tail, WideGamut};
 use onelight_lut::Storage;
-use onelight_printing::{Aim, HeatGlass, Infrared, PrinterLight, Projector, Wratten};
+use onelight_printing::{Aim, HeatGlass, Infrared, PrinterLight, Projector, White, Wratten};
 use onelight_spectra::{Reconstruction, RgbSpace, TransferCurve};
 
 use crate::error::{Error, ErrorKind};
@@ -106,6 +106,15 @@ words! {
     Matching, "matching":
         Matching::Grey = "grey" "18 % grey under 6500 K lands on the mid grey of the curves",
         Matching::Absolute = "absolute" "the sheet's own units decide, casts included";
+    WideGamut, "gamut":
+        WideGamut::Compress = "compress" "light outside the sRGB primaries lowers exposures, smoothly and never to 0",
+        WideGamut::Clip = "clip" "its negative channels count as 0, as the talk has it";
+    White, "white":
+        White::Film = "film" "clear film is the display's white: a viewer adapts to it",
+        White::Lamp = "lamp" "the projector's bare lamp is, as the talk has it";
+    PrintCurves, "print_curves":
+        PrintCurves::Neutral = "neutral" "the sheet's three curves are one neutral scale",
+        PrintCurves::Principal = "principal" "each curve holds the dye of its own layer alone";
     Reconstruction, "reconstruction":
         Reconstruction::Smooth = "smooth" "smoothest reflectances >= 0, exact",
         Reconstruction::PseudoInverse = "pseudo-inverse" "smoothest with negative lobes, exact",
@@ -201,6 +210,9 @@ mod tests {
         complete::<HeatGlass>();
         complete::<Tail>();
         complete::<Projector>();
+        complete::<WideGamut>();
+        complete::<White>();
+        complete::<PrintCurves>();
         complete::<Entries>();
         complete::<TableCoding>();
         complete::<Storage>();

@@ -49,7 +49,7 @@ pub use duplication::{Calibration, Duplication, LitDuplication};
 pub use error::Error;
 pub use filter::{HeatGlass, Wratten};
 pub use printer::{Filters, Infrared, POINT_LOG_EXPOSURE, Printer, PrinterLight, PrinterLights};
-pub use projection::{Projection, Projector};
+pub use projection::{Projection, Projector, White};
 pub use spectral_row::SpectralRow;
 
 /// The examples of README.md, compiled and run with the tests.

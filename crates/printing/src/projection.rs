@@ -31,6 +31,22 @@ pub enum Projector {
     ViewingBooth,
 }
 
+/// What a viewer takes for white. Clear film is not neutral: a viewer adapts to it.
+///
+/// ```
+/// use onelight_printing::White;
+/// assert_eq!(White::default(), White::Film);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum White {
+    /// The film at its lowest densities in the projector's light, a print unexposed, a reversal film fully exposed: the display's
+    /// (1, 1, 1). Media-relative colorimetry, as \[ICC1\] has it: XYZ is scaled.
+    #[default]
+    Film,
+    /// The bare lamp: clear film is as coloured and as dark as it is (\[Gotanda2010\]).
+    Lamp,
+}
+
 impl Projector {
     fn lamp(self, shape: SpectralShape) -> SpectralDistribution<Power> {
         match self {
@@ -67,7 +83,8 @@ impl Projector {
 pub struct Projection {
     dyes: Dyes,
     lamp: SpectralDistribution<Power>,
-    lamp_xyz: Vector3<f64>,
+    /// What counts as white: the bare lamp, or clear film.
+    white_xyz: Vector3<f64>,
     to_rgb: Matrix3<f64>,
     rows: Vec<SpectralRow>,
 }
@@ -110,7 +127,17 @@ impl Projection {
             }
         });
         let rows = rows.collect();
-        Ok(Self { dyes, lamp, lamp_xyz, to_rgb, rows })
+        Ok(Self { dyes, lamp, white_xyz: lamp_xyz, to_rgb, rows })
+    }
+
+    /// The same projection seen by who takes the film with these amounts of dye for white, as [`White::Film`] does clear film: it
+    /// becomes what the bare lamp was, display (1, 1, 1) or, for an unadapted projector, the colour of its lamp.
+    #[must_use]
+    pub fn adapted_to(self, amounts: PerLayer<DyeAmount>) -> Self {
+        let white_xyz = Vector3::from(self.xyz(amounts));
+        // Back to the lamp's white, then to the new one.
+        let to_rgb = self.to_rgb * Matrix3::from_diagonal(&self.white_xyz.component_div(&white_xyz));
+        Self { white_xyz, to_rgb, ..self }
     }
 
     /// The light that leaves the film.
@@ -143,18 +170,18 @@ impl Projection {
         &self.to_rgb
     }
 
-    /// Display-linear RGB; the bare lamp is (1, 1, 1) unless the projector is unadapted.
+    /// Display-linear RGB; the white is (1, 1, 1) unless the projector is unadapted.
     #[must_use]
     pub fn rgb(&self, amounts: PerLayer<DyeAmount>) -> [f64; 3] {
         self.rgb_of(self.xyz(amounts))
     }
 
-    /// Amounts that look like the bare lamp behind a grey filter of `density`; `stock` is named if there are none.
+    /// Amounts that look like the white behind a grey filter of `density`; `stock` is named if there are none.
     ///
     /// # Errors
     /// If no amounts of the dyes give that light.
     pub fn neutral_amounts(&self, density: f64, stock: &str) -> Result<PerLayer<DyeAmount>, Error> {
-        let target = self.lamp_xyz * 10f64.powf(-density);
+        let target = self.white_xyz * 10f64.powf(-density);
         let [c, m, y] = self.dyes.dyes().to_array();
         if c == m && m == y {
             return self.amounts_of_silver(target, density, stock);
@@ -205,6 +232,33 @@ impl Projection {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_film_taken_for_white_becomes_white() {
+        let dyes = ["cyan", "magenta", "yellow"].map(|dye| {
+            let peak = match dye {
+                "cyan" => 650.0,
+                "magenta" => 550.0,
+                _ => 450.0,
+            };
+            SpectralDistribution::from_fn(SpectralShape::VISIBLE, |nm| (-((nm - peak) / 60.0f64).powi(2)).exp())
+                .unwrap()
+        });
+        let clear = PerLayer { red: DyeAmount(0.03), green: DyeAmount(0.05), blue: DyeAmount(0.12) };
+        for projector in [Projector::Display, Projector::Theatre, Projector::TheatreUnadapted, Projector::Xenon] {
+            let dyes = Dyes::new(PerLayer::from(dyes.clone()), None).unwrap();
+            let lamp = Projection::new(dyes, projector, &RgbSpace::SRGB).unwrap();
+            let bare = lamp.rgb_of(lamp.white_xyz.into());
+            let film = lamp.clone().adapted_to(clear);
+            assert!(film.rgb(clear).iter().zip(bare).all(|(v, bare)| (v - bare).abs() < 1e-12), "{projector:?}");
+            // Adapted twice is adapted to the last.
+            let grey = PerLayer::all(DyeAmount(0.4));
+            let again = lamp.adapted_to(grey).adapted_to(clear);
+            assert!(again.rgb(grey).iter().zip(film.rgb(grey)).all(|(a, b)| (a - b).abs() < 1e-12));
+            let neutral = film.rgb(film.neutral_amounts(0.7, "a film").unwrap());
+            assert!(neutral.iter().zip(bare).all(|(v, bare)| (v / bare - 10f64.powf(-0.7)).abs() < 1e-9));
+        }
+    }
 
     #[test]
     fn dyes_on_another_grid_are_refused() {

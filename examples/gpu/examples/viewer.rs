@@ -10,7 +10,7 @@ use std::sync::Arc;
 use onelight::DirectSettings;
 use onelight_gpu::{FilmPass, wgpu};
 use onelight_gpu_examples::scene;
-use onelight_lut::{DirectForm, DirectParts};
+use onelight_lut::{DirectForm, DirectParts, Expose};
 use pollster::block_on;
 use wgpu::{CurrentSurfaceTexture, Device, Queue, Surface, SurfaceConfiguration, Texture};
 use winit::application::ApplicationHandler;
@@ -71,7 +71,8 @@ impl Viewer {
     fn form(&self) -> Result<DirectForm, Box<dyn Error>> {
         let parts = self.forms[self.stock].parts().clone();
         let gain = (self.thirds as f32 / 3.0).exp2();
-        Ok(DirectForm::new(DirectParts { input: parts.input.map(|row| row.map(|v| gain * v)), ..parts })?)
+        let input = parts.expose.input.map(|row| row.map(|v| gain * v));
+        Ok(DirectForm::new(DirectParts { expose: Expose { input, ..parts.expose }, ..parts })?)
     }
 
     fn open(&self, event_loop: &ActiveEventLoop) -> Result<Frame, Box<dyn Error>> {

@@ -100,7 +100,8 @@ pub(super) fn clf() -> Result<Vec<Seed>, Fault> {
         .mix
         .as_ref()
         .map(|mix| -> Result<_, Fault> { Ok(onelight::lut::Mix { curves: curves(&mix.curves)?, ..mix.clone() }) });
-    let small = onelight::lut::StructuredParts { curves: curves(&parts.curves)?, mix: mix.transpose()?, ..parts };
+    let develop = onelight::lut::Develop { coupling: None, curves: curves(&parts.develop.curves)? };
+    let small = onelight::lut::StructuredParts { develop, mix: mix.transpose()?, ..parts };
     let mut structured = Vec::new();
     ClfProcess::from_structured(&onelight::lut::StructuredLut::new(small)?)?.write(&mut structured)?;
     seeds.push(("structured.clf".to_owned(), structured));
@@ -138,9 +139,10 @@ pub(super) fn spi3d() -> Result<Vec<Seed>, Fault> {
 }
 
 pub(super) fn direct_json() -> Result<Vec<Seed>, Fault> {
-    use onelight::lut::{DirectForm, DirectParts, DirectPrint, ExponentialSum, ExponentialTerm, PowerCoding};
+    use onelight::lut::{
+        Develop, DirectForm, DirectParts, DirectPrint, ExponentialSum, ExponentialTerm, Expose, IDENTITY, PowerCoding,
+    };
 
-    const IDENTITY: [[f32; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let curves = || Lut1d::sample(4, [-8.0, 4.0], |h| 0.1 * (8.0 + h));
     let sum = |terms: u8| {
         let term = |i: u8| ExponentialTerm { rate: [1.0, 0.5, f32::from(i)], weight: [0.5, 0.25, -0.125] };
@@ -148,8 +150,8 @@ pub(super) fn direct_json() -> Result<Vec<Seed>, Fault> {
     };
     let print = || -> Result<_, Fault> { Ok(DirectPrint { exposure: sum(1)?, curves: curves()? }) };
     let file = |print: Option<DirectPrint>, coding: PowerCoding| -> Result<Vec<u8>, Fault> {
-        let parts =
-            DirectParts { input: IDENTITY, exposure: IDENTITY, curves: curves()?, print, projection: sum(2)?, coding };
+        let develop = Develop { coupling: None, curves: curves()? };
+        let parts = DirectParts { expose: Expose::by(IDENTITY), develop, print, projection: sum(2)?, coding };
         let mut file = Vec::new();
         direct_json::write(&mut file, &DirectForm::new(parts)?, ["a look"])?;
         Ok(file)

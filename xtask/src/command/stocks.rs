@@ -103,7 +103,7 @@ fn all(stocks: &[Stock]) -> (String, Value) {
         let silver = if image == Image::Silver { ", black and white" } else { "" };
         let _ = writeln!(
             text,
-            "{:31} {:4} {:>4}  {:13} {:>13} {:9} {:16} {:7} derived",
+            "{:31} {:4} {:>4}  {:13} {:>13} {:9} {:16} {:7} {:21} derived",
             format!("{}{silver}", kind.word()),
             "year",
             "EI",
@@ -111,7 +111,8 @@ fn all(stocks: &[Stock]) -> (String, Value) {
             "log exposure",
             "axis",
             "aim",
-            "+-D"
+            "+-D",
+            "inter-image"
         );
         for stock in stocks {
             text.push_str(&row(stock));
@@ -122,6 +123,8 @@ fn all(stocks: &[Stock]) -> (String, Value) {
         "*    derived: the sheet states no aim\n\
          @    a variant: `ID@VARIANT`\n\
          +-D  how far two digitisations of the sheet differ in density, rms\n\
+         inter-image: log10 exposure for a unit of density between layers that touch, and red and blue; measured on this film,\n\
+         \x20    transferred from measured films of its kind, or assumed\n\
          ~    assumed, as there is only one: three times the median of the others\n\
          `cargo xtask stocks ID` plots one.\n",
     );
@@ -134,7 +137,7 @@ fn row(stock: &Stock) -> String {
     let speed = stock.exposure_index().map_or_else(|| "-".to_owned(), |ei| format!("{ei}"));
     let variants: Vec<String> = stock.variants().map(|variant| format!("@{variant}")).collect();
     let mut row = format!(
-        "  {:29} {:4} {speed:>4}  {:13} {:>13} {:9} {:16} {:7} {}\n",
+        "  {:29} {:4} {speed:>4}  {:13} {:>13} {:9} {:16} {:7} {:21} {}\n",
         stock.id(),
         stock.year(),
         format!("{first:.0}-{last:.0}"),
@@ -142,6 +145,7 @@ fn row(stock: &Stock) -> String {
         axis(stock),
         aim(stock),
         format!("{:.3}{}", mean(stock.uncertainty().characteristic), if is_assumed(stock) { "~" } else { "" }),
+        inter_image(stock),
         derived(stock),
     );
     if !variants.is_empty() {
@@ -177,6 +181,7 @@ fn one(id: &str, out: Option<&Path>) -> Result<(String, Value)> {
     line("kind, process", format!("{}, {}, {}", kind(&stock), stock.process(), stock.balance()));
     line("exposure index", stock.exposure_index().map_or_else(|| "none".to_owned(), |ei| ei.to_string()));
     line("sheet", format!("{} ({})", stock.sheet(), stock.year()));
+    line("inter-image, near/far", inter_image(&stock));
     line("derived", derived(&stock));
     let variants: Vec<&str> = stock.variants().collect();
     if !variants.is_empty() {
@@ -262,6 +267,9 @@ fn as_json(stock: &Stock) -> Value {
         "d_min": stock.characteristic().map(|curve| curve.d_min().0).to_array(),
         "d_max": stock.characteristic().map(|curve| curve.d_max().0).to_array(),
         "aim_status_a": stock.aim().map(|aim| aim.status_a.map(|d| d.0).to_array()),
+        "inter_image": stock.inter_image().map(|(strength, origin)| json!({
+            "near": strength.near(), "far": strength.far(), "origin": origin.word(),
+        })),
         "derived": stock.derived(),
         "uncertainty": {
             "origin": stock.uncertainty().origin,
@@ -292,6 +300,13 @@ fn aim(stock: &Stock) -> String {
         }
         None => "-".to_owned(),
     }
+}
+
+/// How strongly its layers inhibit each other, and where that is from.
+fn inter_image(stock: &Stock) -> String {
+    stock.inter_image().map_or("-".to_owned(), |(strength, origin)| {
+        format!("{:.2}/{:.2} {}", strength.near(), strength.far(), origin.word())
+    })
 }
 
 fn derived(stock: &Stock) -> String {
@@ -357,7 +372,7 @@ mod tests {
         let stocks: Vec<Stock> = stock_ids().map(|id| stock(id).unwrap()).collect();
         let (text, _) = all(&stocks);
         assert!(!text.contains("-0.00"), "{text}");
-        let row = |id: &str| text.lines().find(|line| line.starts_with(id)).unwrap().to_owned();
+        let row = |id: &str| text.lines().find(|line| line.trim_start().starts_with(id)).unwrap().to_owned();
         for stock in stock_ids().map(|id| stock(id).unwrap()) {
             // Where nobody compared two digitisations, the same figure stands for several stocks.
             assert_eq!(

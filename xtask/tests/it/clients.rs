@@ -87,12 +87,10 @@ fn opencolorio_gives_what_we_give() {
         let clf = ClfProcess::read(open(&folder.join(SCENE_CLF))).unwrap();
         for rgb in colours() {
             let (ours, read) = (structured.apply(rgb), clf.apply(rgb));
-            assert!((0..3).all(|c| (ours[c] - read[c]).abs() < 5e-5), "{rgb:?}: {ours:?} and {read:?}");
+            // The file holds the inter-image effect in a table of 33 nodes.
+            assert!((0..3).all(|c| (ours[c] - read[c]).abs() < 2e-3), "{rgb:?}: {ours:?} and {read:?}");
         }
-        try_in_opencolorio(
-            folder,
-            &[(SCENE_CLF, &|rgb| structured.apply(rgb)), ("look.ocio", &|rgb| structured.apply(rgb))],
-        );
+        try_in_opencolorio(folder, &[(SCENE_CLF, &|rgb| clf.apply(rgb)), ("look.ocio", &|rgb| clf.apply(rgb))]);
 
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path();

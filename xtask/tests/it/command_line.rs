@@ -35,10 +35,10 @@ fn looks_that_contradict_themselves_are_named() {
     assert!(refused(folder, &["bake", "--look", "missing.toml"]).contains("missing.toml"));
     assert!(refused(folder, &["bake", "--size", "1"]).contains("--size"));
     let look = |text: &str| fs::write(folder.join("look.toml"), text).unwrap();
-    look("version = 1\ncamrea = \"kodak-5207\"\n");
+    look("version = 2\ncamrea = \"kodak-5207\"\n");
     let sentence = refused(folder, &["bake", "--look", "look.toml"]);
     assert!(sentence.contains("look.toml:2") && sentence.contains("\"camera\""), "{sentence}");
-    look("version = 1\nglass = \"none\"\nred_tail = \"held\"\n");
+    look("version = 2\nglass = \"none\"\nred_tail = \"held\"\n");
     assert!(refused(folder, &["bake", "--look", "look.toml"]).contains("printer lights"));
     fs::write(folder.join("file"), b"").unwrap();
     assert!(refused(folder, &["bake", "--out", "file/below"]).contains("file/below"));
@@ -66,11 +66,16 @@ fn the_fixture_scene_is_written_and_developed() {
 fn forms_and_formats_agree_on_the_scene() {
     let folder = with_scene();
     let folder = folder.path();
-    done(folder, &["develop", "scene.exr", "plain.png", "--form", "plain", "--bits", "16"]);
-    done(folder, &["develop", "scene.exr", "structured.png", "--form", "structured", "--bits", "16"]);
-    done(folder, &["develop", "scene.exr", "direct.png", "--form", "direct", "--bits", "16"]);
+    // A plain table of scene light begins at 0: it clips light outside the primaries, whatever the look says, and says how far that is.
+    let told = done(folder, &["develop", "scene.exr", "far.png", "--form", "plain"]);
+    assert!(told.contains("plain form is within") && told.contains("hold light outside the sRGB primaries"), "{told}");
+    for form in ["plain", "structured", "direct"] {
+        let output = format!("{form}.png");
+        done(folder, &["develop", "scene.exr", &output, "--form", form, "--bits", "16", "--gamut", "clip"]);
+    }
     done(folder, &["develop", "scene.exr", "film.exr"]);
-    done(folder, &["develop", "scene.exr", "film.png", "--ev", "0"]);
+    let told = done(folder, &["develop", "scene.exr", "film.png", "--form", "reference", "--gamut", "clip"]);
+    assert!(!told.contains("is within"), "{told}");
     // A developed picture is a picture: it can be developed again, its integers named as what they are.
     let again = done(folder, &["develop", "film.png", "again.png", "--input-coding", "srgb"]);
     assert!(again.contains("160x90"));
@@ -82,9 +87,10 @@ fn forms_and_formats_agree_on_the_scene() {
     let coded = |path: &str| image::open(folder.join(path)).unwrap().to_rgb16();
     let film = coded("film.png");
     let largest = |path: &str| coded(path).iter().zip(film.iter()).map(|(a, b)| a.abs_diff(*b)).max().unwrap();
-    // 8-bit rounding of the film is 128 of 65535; the tables add what their certificates say, dE 0.2 and 0.8 at most.
+    // 8-bit rounding of the film is 128 of 65535; the forms add what their certificates say, dE 0.1, 0.3 and 1.2 at most, which
+    // is most codes in a channel that hardly counts, such as the blue of orange.
     let (direct, structured, plain) = (largest("direct.png"), largest("structured.png"), largest("plain.png"));
-    assert!(direct < 300 && structured < 300 && plain < 2000, "{direct} {structured} {plain}");
+    assert!(direct < 500 && structured < 500 && plain < 2000, "{direct} {structured} {plain}");
 }
 
 #[test]
@@ -173,7 +179,8 @@ fn switches_that_change_nothing_are_named() {
 fn commands_that_only_look_work() {
     let folder = tempfile::tempdir().unwrap();
     assert!(done(folder.path(), &["stocks"]).contains("kodak-kodachrome-64"));
-    assert!(done(folder.path(), &["stocks", "--check"]).contains("59 processes"));
+    let checked = done(folder.path(), &["stocks", "--check"]);
+    assert!(checked.contains(&format!("{} stocks read", onelight::stock_ids().count())), "{checked}");
     let velvia: serde_json::Value =
         serde_json::from_str(&done(folder.path(), &["stocks", "fuji-velvia-50", "--json"])).unwrap();
     assert_eq!(velvia["kind"], "reversal");
@@ -219,7 +226,7 @@ fn a_picture_knows_its_primaries_better_than_a_look() {
         done(folder, &[&["develop", "wide.exr", output, "--form", "plain"], arguments].concat());
         fs::read(folder.join(output)).unwrap()
     };
-    fs::write(folder.join("look.toml"), "version = 1\ninput_space = \"srgb\"\n").unwrap();
+    fs::write(folder.join("look.toml"), "version = 2\ninput_space = \"srgb\"\n").unwrap();
     let own = bytes("a.png", &[]);
     assert!(own == bytes("b.png", &["--look", "look.toml"]));
     assert!(own != bytes("c.png", &["--input-space", "srgb"]));

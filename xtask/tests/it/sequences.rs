@@ -29,10 +29,10 @@ fn with_frames(count: usize, size: [usize; 2]) -> tempfile::TempDir {
     folder
 }
 
-/// The whole job, with more options.
+/// The whole job, with more options: through the exact film, which takes long enough for a frame to be stopped in.
 fn job(folder: &Path, output: &str, more: &[&str]) -> Command {
     let mut command = program();
-    command.args(["develop", "in/shot.####.exr", output]).args(more);
+    command.args(["develop", "in/shot.####.exr", output, "--form", "reference"]).args(more);
     command.current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped());
     command
 }

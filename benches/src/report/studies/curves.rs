@@ -1,7 +1,7 @@
 use std::f64::consts::LOG2_10;
 
 use onelight::film::{AmountCurve, LogExposure, PerLayer};
-use onelight::lut::{DirectForm, DirectParts, DirectPrint, Domain, Lut1d};
+use onelight::lut::{Develop, DirectForm, DirectParts, DirectPrint, Domain, Lut1d};
 use onelight::{DirectSettings, Nodes};
 use serde::Serialize;
 
@@ -29,7 +29,8 @@ pub(super) fn curves(prepared: &Prepared, colours: &Colours) -> Result<Vec<Curve
             (Some(print), Some(layers)) => Some(DirectPrint { curves: table(layers, points)?, ..print }),
             (print, _) => print,
         };
-        let form = DirectForm::new(DirectParts { curves: table(film.camera_curves(), points)?, print, ..parts })?;
+        let develop = Develop { curves: table(film.camera_curves(), points)?, ..parts.develop };
+        let form = DirectForm::new(DirectParts { develop, print, ..parts })?;
         rows.push(CurveRow { points, miss: colours.miss_coded(|rgb| form.apply(rgb))? });
     }
     Ok(rows)

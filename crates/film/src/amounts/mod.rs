@@ -2,6 +2,7 @@
 
 mod constants;
 mod literal;
+mod principal;
 mod silver;
 mod wedge;
 
@@ -53,5 +54,36 @@ impl DyeModel {
             Self::Constants if stock.kind() == StockKind::Negative => constants::amounts(stock),
             Self::Wedge | Self::Constants => wedge::amounts(stock, mid_grey),
         }
+    }
+}
+
+/// What the three characteristic curves of a print film's sheet are. Sheets seldom say; docs/stocks.md says what depends on it.
+///
+/// ```
+/// use onelight_film::{PerLayer, PrintCurves, SheetText, Stock};
+/// # let f = onelight_stocks::find("kodak-2383").ok_or("no such stock")?;
+/// # let stock = Stock::parse(&SheetText { id: f.id, stock_toml: f.stock_toml, sensitivity_csv: f.sensitivity_csv,
+/// #     characteristic_csv: f.characteristic_csv, dye_density_csv: f.dye_density_csv })?;
+/// let curves = PrintCurves::principal_amounts(&stock)?;
+/// assert!(curves.red.amount_range().end().0 > 1.0);
+/// assert_eq!(PrintCurves::default(), PrintCurves::Neutral);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum PrintCurves {
+    /// One neutral scale: at each point all three dyes are there, and a [`DyeModel`] takes them apart.
+    #[default]
+    Neutral,
+    /// Three separation exposures: each curve holds the dye of its own layer alone.
+    Principal,
+}
+
+impl PrintCurves {
+    /// The amount curve of each layer if its characteristic curve holds its own dye alone ([`PrintCurves::Principal`]).
+    ///
+    /// # Errors
+    /// If no amount of a dye gives a density of its curve.
+    pub fn principal_amounts(stock: &Stock) -> Result<PerLayer<AmountCurve>, Error> {
+        principal::amounts(stock)
     }
 }

@@ -1,6 +1,7 @@
 use nalgebra::{Matrix3, Vector3};
 use onelight_spectra::{Basis, MID_GREY, SpectralShape, lux_to_w_per_m2};
 
+use super::wide_gamut::WideGamut;
 use crate::error::Error;
 use crate::layer::PerLayer;
 use crate::metering::MID_GREY_LUX_S;
@@ -35,7 +36,7 @@ pub enum Matching {
 }
 
 /// Scene RGB (sRGB primaries, 6500 K white) to the exposure of each layer: E = K u. Spectrum, sensitivity and matching
-/// vector in one 3x3 matrix, integrated at 1 nm.
+/// vector in one 3x3 matrix, integrated at 1 nm. Light outside the primaries as [`WideGamut`] says.
 ///
 /// ```
 /// use onelight_film::{ExposureMatrix, LogExposure, Matching, PerLayer, SheetText, Stock};
@@ -57,6 +58,7 @@ pub enum Matching {
 pub struct ExposureMatrix {
     matrix: Matrix3<f64>,
     matching: PerLayer<f64>,
+    gamut: WideGamut,
 }
 
 impl ExposureMatrix {
@@ -77,20 +79,32 @@ impl ExposureMatrix {
             Matching::Absolute => absolute(stock, basis)?,
         };
         let matrix = Matrix3::from_diagonal(&Vector3::from(vector.to_array())) * sensors;
-        Ok(Self { matrix, matching: vector })
+        Ok(Self { matrix, matching: vector, gamut: WideGamut::default() })
     }
 
     /// The same film exposed so many stops more.
     #[must_use]
     pub fn overexposed(self, stops: f64) -> Self {
         let factor = stops.exp2();
-        Self { matrix: self.matrix * factor, matching: self.matching.map(|c| c * factor) }
+        Self { matrix: self.matrix * factor, matching: self.matching.map(|c| c * factor), ..self }
+    }
+
+    /// The same film, light outside the sRGB primaries taken so.
+    #[must_use]
+    pub fn with_gamut(self, gamut: WideGamut) -> Self {
+        Self { gamut, ..self }
     }
 
     /// Exposure of each layer for a scene-linear RGB (sRGB primaries, 6500 K white), on the axis of the characteristic curves.
     #[must_use]
     pub fn expose(&self, scene_linear: [f64; 3]) -> PerLayer<f64> {
-        PerLayer::from(<[f64; 3]>::from(self.matrix * Vector3::from(scene_linear)))
+        PerLayer::from(self.gamut.expose(&self.matrix, scene_linear))
+    }
+
+    /// What light outside the sRGB primaries does.
+    #[must_use]
+    pub fn gamut(&self) -> WideGamut {
+        self.gamut
     }
 
     /// The matrix, the matching vector in it; row i is layer i.

@@ -2,6 +2,8 @@
 
 mod camera;
 mod matching;
+mod wide_gamut;
 
 pub use camera::{Camera, FrameBufferScale};
 pub use matching::{ExposureMatrix, Matching};
+pub use wide_gamut::WideGamut;

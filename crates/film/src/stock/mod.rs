@@ -14,6 +14,7 @@ use crate::densitometry::Densitometry;
 use crate::dye::{DyeDensity, Dyes};
 use crate::error::Error;
 use crate::granularity::Granularity;
+use crate::inter_image::{InterImage, InterImageOrigin};
 use crate::layer::PerLayer;
 use crate::metering::MID_GREY_LUX_S;
 use crate::modulation_transfer::ModulationTransfer;
@@ -274,6 +275,28 @@ impl Stock {
     pub fn aim(&self) -> Option<AimDensities> {
         let section = self.sheet.aim.as_ref()?;
         Some(AimDensities { status_a: PerLayer::from(section.densities()).map(Density), origin: section.origin })
+    }
+
+    /// How strongly its layers inhibit each other's development, and where that is from: its own where the sheet has one, else
+    /// that of its kind ([`InterImage::of_kind`]); `None` for print films and for a picture in silver, which has one layer.
+    ///
+    /// ```
+    /// use onelight_film::{InterImage, InterImageOrigin, SheetText, Stock};
+    /// # let f = onelight_stocks::find("kodak-portra-400").ok_or("no such stock")?;
+    /// # let portra = Stock::parse(&SheetText { id: f.id, stock_toml: f.stock_toml, sensitivity_csv: f.sensitivity_csv,
+    /// #     characteristic_csv: f.characteristic_csv, dye_density_csv: f.dye_density_csv })?;
+    /// assert_eq!(portra.inter_image(), Some((InterImage::NEGATIVE, InterImageOrigin::Measured)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn inter_image(&self) -> Option<(InterImage, InterImageOrigin)> {
+        if self.image() == Image::Silver {
+            return None;
+        }
+        let own = self.sheet.inter_image.as_ref();
+        // The reader has checked the numbers.
+        let own = own.and_then(|pair| Some((InterImage::new(pair.near, pair.far).ok()?, pair.origin)));
+        own.or_else(|| InterImage::of_kind(self.kind()))
     }
 
     /// How far the figures can be trusted.

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use crate::error::{Error, ErrorKind};
+use crate::inter_image::{InterImage, InterImageOrigin};
 use crate::printable::printable;
 
 use super::facts::{ExposureAxis, Image, MidGrey, Normalisation, Origin, StockKind, Uncertainty};
@@ -42,6 +43,7 @@ pub(super) struct Sheet {
     pub(super) usual_variant: Option<String>,
     #[serde(default)]
     pub(super) variant: Vec<VariantSection>,
+    pub(super) inter_image: Option<InterImageSection>,
     pub(super) uncertainty: Uncertainty,
 }
 
@@ -130,6 +132,14 @@ impl Sheet {
     }
 }
 
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct InterImageSection {
+    pub(super) near: f64,
+    pub(super) far: f64,
+    pub(super) origin: InterImageOrigin,
+}
+
 pub(super) fn parse(file: &str, text: &str) -> Result<Sheet, Error> {
     let problem = |line: u64, problem: String| Error::from(ErrorKind::Sheet { file: file.to_owned(), line, problem });
     if text.len() > MAX_BYTES {
@@ -147,6 +157,8 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Sheet, Error> {
         ("exposure_index", sheet.exposure_index, 0.1..=1e6),
         ("criterion", sheet.sensitivity.criterion, 0.01..=3.0),
         ("base", sheet.dye_density.as_ref().map(|dyes| dyes.base), 0.0..=1.0),
+        ("near", sheet.inter_image.as_ref().map(|pair| pair.near), 0.0..=InterImage::MAX),
+        ("far", sheet.inter_image.as_ref().map(|pair| pair.far), 0.0..=InterImage::MAX),
     ];
     let aim = sheet.aim.as_ref().map(AimSection::densities).unwrap_or_default();
     let aim = aim.map(|d| (if sheet.image == Image::Silver { "visual" } else { "status_a" }, Some(d), 0.0..=5.0));

@@ -1,9 +1,10 @@
 use super::ClfProcess;
+use super::coupling;
 use super::op::{Direction, ExponentStyle, LogCurve, Op, Power, Range};
 use crate::error::{Error, ErrorKind};
 use onelight_lut::{
-    Decode, Domain, IDENTITY, Interpolation, LOG_FLOOR, Lut1d, Lut3d, Mix, PlainLut, PowerCoding, Rows, ShaperKind,
-    StructuredLut,
+    Decode, Domain, IDENTITY, Interpolation, LOG_FLOOR, Lut1d, Lut3d, Mix, NegativeLight, PlainLut, PowerCoding, Rows,
+    ShaperKind, StructuredLut,
 };
 
 /// The brightest light that a file's ranges let through.
@@ -16,6 +17,10 @@ const RANGE_MAX: f64 = 1e16;
 impl ClfProcess {
     /// A structured LUT with its matrices and curves, so that nothing is needed beside the file.
     ///
+    /// A chain of three channels holds two steps only nearly. Coupled layers become a table of 33^3 log exposures before the curves
+    /// (0.05 dE on a film). Light below 0 that is compressed goes through the matrices uncut, which is the same for little of it,
+    /// and ends at the floor of the logarithm.
+    ///
     /// # Errors
     ///
     /// None that a [`StructuredLut`] can cause today; the tables are checked once more.
@@ -23,15 +28,25 @@ impl ClfProcess {
         let parts = lut.parts();
         let max = RANGE_MAX;
         let mut ops = Vec::new();
-        if parts.input != IDENTITY {
+        if parts.expose.input != IDENTITY {
             ops.push(Op::Range(Range::clamp(-max, max)));
-            ops.push(matrix(&parts.input));
+            ops.push(matrix(&parts.expose.input));
         }
-        ops.push(Op::Range(Range::clamp(0.0, max)));
-        ops.push(matrix(&parts.exposure));
+        ops.push(match parts.expose.negative {
+            NegativeLight::Clip => Op::Range(Range::clamp(0.0, max)),
+            NegativeLight::Compress => Op::Range(Range::clamp(-max, max)),
+        });
+        ops.push(matrix(&parts.expose.matrix));
         ops.push(Op::Range(Range::floor(f64::from(LOG_FLOOR))));
-        ops.push(log_to_unit(parts.curves.domain()));
-        ops.push(over_unit(&parts.curves)?);
+        match &parts.develop.coupling {
+            None => ops.push(log_to_unit(parts.develop.curves.domain())),
+            Some(coupling) => {
+                let unit = coupling::unit(&parts.develop, coupling)?;
+                ops.push(log_to_unit(&unit));
+                ops.extend(coupling::ops(&parts.develop, coupling, &unit)?);
+            }
+        }
+        ops.push(over_unit(&parts.develop.curves)?);
         if let Some(mix) = &parts.mix {
             ops.push(mix_to_unit(mix));
             ops.push(over_unit(&mix.curves)?);

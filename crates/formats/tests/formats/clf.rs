@@ -2,8 +2,8 @@
 
 use onelight_formats::{ClfProcess, Error};
 use onelight_lut::{
-    Decode, Domain, IDENTITY, Interpolation, Lut1d, Lut3d, Mix, PlainLut, PowerCoding, SceneSampler, Shaper,
-    StructuredLut, StructuredParts, bake,
+    Decode, Develop, Domain, Expose, IDENTITY, Interpolation, Lut1d, Lut3d, Mix, PlainLut, PowerCoding, SceneSampler,
+    Shaper, StructuredLut, StructuredParts, bake,
 };
 
 /// `f64` here against `f32` there: a few roundings of a logarithm near 40, over a domain of 25 stops, times the slopes below.
@@ -33,9 +33,8 @@ fn structured(input: [[f32; 3]; 3], mix: Option<Mix>, decode: Decode) -> Structu
     let domain = Domain::new([-12.5, -13.0, -12.0], [9.0, 10.5, 11.25]).unwrap();
     let gains = if mix.is_some() { [1.0, 0.9, 0.95] } else { [0.5, 0.45, 0.5] };
     StructuredLut::new(StructuredParts {
-        input,
-        exposure: [[4.1, 0.3, 0.0], [0.2, 3.9, 0.15], [0.0, 0.1, 5.2]],
-        curves: curve(domain, 257, gains),
+        expose: Expose { input, ..Expose::by([[4.1, 0.3, 0.0], [0.2, 3.9, 0.15], [0.0, 0.1, 5.2]]) },
+        develop: Develop { coupling: None, curves: curve(domain, 257, gains) },
         mix,
         table: table(17),
         decode,
@@ -94,7 +93,7 @@ fn a_structured_lut_is_in_the_file_whole() {
 fn black_reads_the_floor_of_the_logarithm_within_wide_curves() {
     let curves = curve(Domain::common(-100.0, 10.0).unwrap(), 129, [0.5; 3]);
     let parts = structured(IDENTITY, None, Decode::Coded).parts().clone();
-    let lut = StructuredLut::new(StructuredParts { curves, ..parts }).unwrap();
+    let lut = StructuredLut::new(StructuredParts { develop: Develop { coupling: None, curves }, ..parts }).unwrap();
     let process = ClfProcess::from_structured(&lut).unwrap();
     assert_close(process.apply([0.0; 3]), lut.apply([0.0; 3]), ROUNDING, [0.0; 3]);
     assert_ne!(lut.apply([0.0; 3]), lut.decode(lut.parts().table.entry([0; 3]).unwrap()));

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use onelight_formats::direct_json;
 use onelight_lut::{
-    DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, IDENTITY, Lut1d, PowerCoding,
+    Coupling, Develop, DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, Expose, Lut1d,
+    NegativeLight, PowerCoding,
 };
 use serde_json::{Value, json};
 
@@ -33,10 +34,14 @@ fn sum(count: usize) -> ExponentialSum {
 }
 
 fn form(print: bool, coding: PowerCoding) -> DirectForm {
+    // What only version 2 can say is in half of them.
+    let negative = if print { NegativeLight::Compress } else { NegativeLight::Clip };
+    let expose = Expose { negative, ..Expose::by([[4.1, 0.3, 0.0], [0.2, 3.9, 0.15], [0.0, 0.1, 5.2]]) };
+    let matrix = [[2.2, -2.0, -0.2], [-2.0, 4.0, -2.0], [-0.2, -2.0, 2.2]];
+    let coupling = print.then(|| Coupling { curves: curves(9, [0.9; 3]), matrix });
+    let develop = Develop { coupling, curves: curves(17, [1.0, 0.9, 0.95]) };
     let print = print.then(|| DirectPrint { exposure: sum(3), curves: curves(33, [0.5, 0.45, 0.5]) });
-    let exposure = [[4.1, 0.3, 0.0], [0.2, 3.9, 0.15], [0.0, 0.1, 5.2]];
-    let curves = curves(17, [1.0, 0.9, 0.95]);
-    DirectForm::new(DirectParts { input: IDENTITY, exposure, curves, print, projection: sum(5), coding }).unwrap()
+    DirectForm::new(DirectParts { expose, develop, print, projection: sum(5), coding }).unwrap()
 }
 
 fn text(form: &DirectForm, comments: &[&str]) -> String {
@@ -73,10 +78,25 @@ fn a_file_holds_every_bit_of_its_form() {
 }
 
 #[test]
+fn version_1_is_read_as_what_it_meant() {
+    let form = form(false, PowerCoding::LINEAR);
+    let file = text(&form, &[]);
+    let old = file
+        .replace("\"version\": 2", "\"version\": 1")
+        .replace(" \"negative_light\": \"clip\",\n", "")
+        .replace(" \"coupling\": null,\n", "");
+    assert!(old.len() < file.len() - 30);
+    assert!(direct_json::parse(&old).unwrap() == form);
+    // What it could not say is not read over.
+    let newer = old.replace("\"version\": 1,", "\"version\": 1,\n \"coupling\": null,");
+    assert!(refused(&newer).contains("expected version 2 beside it"));
+}
+
+#[test]
 fn a_triple_of_numbers_is_a_line_and_keys_keep_their_order() {
     let file = text(&form(true, PowerCoding::LINEAR), &[]);
     let start =
-        "{\n \"format\": \"onelight direct form\",\n \"version\": 1,\n \"comments\": [],\n \"equations\": [\n  \"in: ";
+        "{\n \"format\": \"onelight direct form\",\n \"version\": 2,\n \"comments\": [],\n \"equations\": [\n  \"in: ";
     assert!(file.starts_with(start), "{file:.200}");
     assert!(file.ends_with(" \"coding\": {\n  \"exponent\": 1.0,\n  \"offset\": 0.0\n }\n}\n"));
     assert!(file.contains("\n \"input_max\": 1e30,\n \"log_floor\": 1e-12,\n \"input\": [\n  [1.0, 0.0, 0.0],\n"));
@@ -95,21 +115,32 @@ fn what_is_no_such_file_is_refused() {
         (refused(""), "line 1: JSON: EOF while parsing a value; expected a file of"),
         (refused("[1, 2]"), "line 1: JSON: "),
         (
-            change("\"version\": 1", "\"version\": 2"),
-            "kind of file: found \"onelight direct form\" version 2, expected",
+            change("\"version\": 2", "\"version\": 3"),
+            "kind of file: found \"onelight direct form\" version 3, expected \"onelight direct form\" version 1 or 2",
         ),
-        (change("onelight direct form", "a\\u0007picture"), "kind of file: found \"a picture\" version 1"),
+        (
+            change("\"version\": 2", "\"version\": 1"),
+            "coupling: found a file of version 1 with it, expected version 2 beside it",
+        ),
+        (change("\"negative_light\"", "\"negative\""), "negative_light: found no such key, expected \"clip\""),
+        (change("\"coupling\"", "\"couplings\""), "coupling: found no such key, expected null"),
+        (change("\"compress\"", "\"fade\""), "JSON: unknown variant `fade`"),
+        (change("[2.2, -2.0, -0.2]", "[2.2, -2.0]"), "JSON: invalid length 2"),
+        (change("onelight direct form", "a\\u0007picture"), "kind of file: found \"a picture\" version 2"),
         (change("\"exponent\": 2.4", "\"exponent\": 0.1"), "coding: exponent of a coding: found 0.1, expected"),
         (change("\"exponent\": 2.4", "\"exponent\": 1e400"), "JSON: number out of range"),
         (change("\"projection\"", "\"projektion\""), "JSON: missing field `projection`"),
         (change("\"projection\"", "\"input\""), "JSON: duplicate field `input`"),
-        (change("1e30", "65504.0"), "input_max: found 65504, expected the numbers of version 1, input_max 1e30"),
+        (change("1e30", "65504.0"), "input_max: found 65504, expected the numbers of the format, input_max 1e30"),
         (change("1e-12", "0.0"), "log_floor: found 0, expected"),
-        (change("[1.0, 0.0, 0.0]", "[1.0, 0.0]"), "line 19: JSON: invalid length 2"),
-        (change("[1.0, 0.0, 0.0]", "[1.0, NaN, 0.0]"), "line 19: JSON: expected value"),
-        (change("[1.0, 0.0, 0.0]", "[1.0, null, 0.0]"), "line 19: JSON: invalid type: null"),
-        (change("[1.0, 0.0, 0.0]", "[1.0, 1e39, 0.0]"), "line 19: JSON: number out of range"),
-        (change("-12.5, -13.1", "99.5, -13.1"), "curves: domain of a table: found [99.5, -13.1, -12.0] to"),
+        (change("[1.0, 0.0, 0.0]", "[1.0, 0.0]"), "line 21: JSON: invalid length 2"),
+        (change("[1.0, 0.0, 0.0]", "[1.0, NaN, 0.0]"), "line 21: JSON: expected value"),
+        (change("[1.0, 0.0, 0.0]", "[1.0, null, 0.0]"), "line 21: JSON: invalid type: null"),
+        (change("[1.0, 0.0, 0.0]", "[1.0, 1e39, 0.0]"), "line 21: JSON: number out of range"),
+        (
+            change("-12.5, -13.1", "99.5, -13.1"),
+            "curves of the coupling: domain of a table: found [99.5, -13.1, -12.0] to",
+        ),
         (change("\"rate\": [0.1,", "\"rate\": [-1e300,"), "JSON: number out of range"),
     ] {
         assert!(sentence.contains(says), "{sentence} for {says}");
@@ -190,14 +221,16 @@ impl Written {
         })
     }
 
-    fn curve(&self, curves: &Value, exposure: [f64; 3]) -> [f64; 3] {
+    fn log2(&self, exposure: [f64; 3]) -> [f64; 3] {
+        exposure.map(|e| e.max(self.0["log_floor"].as_f64().unwrap()).log2())
+    }
+
+    fn curve(curves: &Value, h: [f64; 3]) -> [f64; 3] {
         let [from, to] = [Self::triple(&curves["from"]), Self::triple(&curves["to"])];
         let entries: Vec<_> = curves["entries"].as_array().unwrap().iter().map(Self::triple).collect();
-        let floor = self.0["log_floor"].as_f64().unwrap();
         std::array::from_fn(|j| {
-            let h = exposure[j].max(floor).log2();
             let last = entries.len() - 1;
-            let at = ((h - from[j]) / (to[j] - from[j])).clamp(0.0, 1.0) * last as f64;
+            let at = ((h[j] - from[j]) / (to[j] - from[j])).clamp(0.0, 1.0) * last as f64;
             let i = (at as usize).min(last - 1);
             entries[i][j] + (at - i as f64) * (entries[i + 1][j] - entries[i][j])
         })
@@ -206,8 +239,16 @@ impl Written {
 
 #[test]
 fn the_equations_are_those_of_the_form() {
-    let (file, form) = look();
-    let file = Written(serde_json::from_slice(&file).unwrap());
+    for (file, form) in [look(), {
+        let form = form(true, PowerCoding::new(2.4, 0.055).unwrap());
+        (text(&form, &[]).into_bytes(), form)
+    }] {
+        equations_are_those_of(&file, &form);
+    }
+}
+
+fn equations_are_those_of(file: &[u8], form: &DirectForm) {
+    let file = Written(serde_json::from_slice(file).unwrap());
     let multiply = |rows: [[f64; 3]; 3], v: [f64; 3]| rows.map(|row| (0..3).map(|k| row[k] * v[k]).sum::<f64>());
     let [exponent, offset] = ["exponent", "offset"].map(|key| file.0["coding"][key].as_f64().unwrap());
     let end = (offset / (exponent - 1.0) * exponent / (1.0 + offset)).powf(exponent);
@@ -218,10 +259,24 @@ fn the_equations_are_those_of_the_form() {
         coded.copysign(v)
     };
     for rgb in [[0.18; 3], [0.0, 0.0, 0.0], [4.0, 0.2, 0.01], [0.001, 0.0, 30.0], [-1.0, 2.0, 0.5]] {
-        let scene = multiply(file.rows("input"), rgb).map(|v| v.clamp(0.0, file.0["input_max"].as_f64().unwrap()));
-        let dye = file.curve(&file.0["curves"], multiply(file.rows("exposure"), scene));
+        let light = multiply(file.rows("input"), rgb);
+        let part = |sign: f64| light.map(|v| (sign * v).clamp(0.0, file.0["input_max"].as_f64().unwrap()));
+        let (p, n) = (multiply(file.rows("exposure"), part(1.0)), multiply(file.rows("exposure"), part(-1.0)));
+        let compresses = file.0["negative_light"] == "compress";
+        let mut h = file.log2(p);
+        for ((h, p), n) in h.iter_mut().zip(p).zip(n) {
+            let p = p.max(1e-12);
+            *h -= if compresses { std::f64::consts::LOG2_E * n.max(0.0).min(88.0 * p) / p } else { 0.0 };
+        }
+        let coupling = &file.0["coupling"];
+        if !coupling.is_null() {
+            let matrix: [[f64; 3]; 3] = std::array::from_fn(|i| Written::triple(&coupling["matrix"][i]));
+            let shift = multiply(matrix, Written::curve(&coupling["curves"], h));
+            h = std::array::from_fn(|i| h[i] + shift[i]);
+        }
+        let dye = Written::curve(&file.0["curves"], h);
         let print = &file.0["print"];
-        let dye = file.curve(&print["curves"], Written::sum(&print["exposure"], dye));
+        let dye = Written::curve(&print["curves"], file.log2(Written::sum(&print["exposure"], dye)));
         let out = Written::sum(&file.0["projection"], dye).map(code);
         let ours = form.apply(rgb.map(|v| v as f32));
         for (a, b) in out.into_iter().zip(ours) {

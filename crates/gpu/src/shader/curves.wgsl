@@ -25,3 +25,19 @@ fn onelight_curves(points: texture_2d<f32>, curves: OnelightCurves, input: vec3f
         onelight_curve(points, curves.row + 2, position.z),
     );
 }
+
+// What layers do to each other, then the curves. Twin: `Develop::apply`.
+fn onelight_developed(
+    points: texture_2d<f32>,
+    curves: OnelightCurves,
+    coupling: OnelightCurves,
+    matrix: mat3x3f,
+    couples: u32,
+    log2_exposure: vec3f,
+) -> vec3f {
+    var h = log2_exposure;
+    if couples != 0u {
+        h += matrix * onelight_curves(points, coupling, h);
+    }
+    return onelight_curves(points, curves, h);
+}

@@ -14,6 +14,8 @@ struct OnelightTerms {
 struct OnelightDirect {
     input: mat3x3f,
     exposure: mat3x3f,
+    coupling_matrix: mat3x3f,
+    coupling: OnelightCurves,
     curves: OnelightCurves,
     print_curves: OnelightCurves,
     coding: OnelightCoding,
@@ -22,8 +24,10 @@ struct OnelightDirect {
     projection_count: u32,
     // Whether what comes out is still to be decoded for an sRGB view.
     coded: u32,
-    // Whether `input` is anything but the identity.
+    // Whether `input` is anything but the identity; whether light below 0 lowers the exposure; whether layers are coupled.
     converts: u32,
+    compresses: u32,
+    couples: u32,
     print: array<OnelightTerms, 32>,
     projection: array<OnelightTerms, 32>,
 }
@@ -70,8 +74,21 @@ fn onelight_projection(x: vec3f) -> vec3f {
 
 // Twin: `DirectForm::apply`.
 fn onelight_direct(linear: vec3f, points: texture_2d<f32>) -> vec3f {
-    let exposure = onelight_look.exposure * onelight_scene(linear, onelight_look.input, onelight_look.converts);
-    var dye = onelight_curves(points, onelight_look.curves, onelight_log2(exposure));
+    let h = onelight_expose(
+        linear,
+        onelight_look.input,
+        onelight_look.exposure,
+        onelight_look.converts,
+        onelight_look.compresses,
+    );
+    var dye = onelight_developed(
+        points,
+        onelight_look.curves,
+        onelight_look.coupling,
+        onelight_look.coupling_matrix,
+        onelight_look.couples,
+        h,
+    );
     if onelight_look.print_count > 0u {
         dye = onelight_curves(points, onelight_look.print_curves, onelight_log2(onelight_print(dye)));
     }

@@ -8,12 +8,23 @@ fn onelight_log2(exposure: vec3f) -> vec3f {
     return log2(max(exposure, vec3f(ONELIGHT_LOG_FLOOR)));
 }
 
-// The picture's primaries become those of the exposure matrix, unless they are the same (`converts` is 0); negative light
-// counts as 0.
-fn onelight_scene(linear: vec3f, input: mat3x3f, converts: u32) -> vec3f {
-    var scene = onelight_finite(linear);
+// The most that negative light counts for, in exposures of the positive: twin `Expose::log2`.
+const ONELIGHT_MOST_NEGATIVE: f32 = 88.0;
+const ONELIGHT_LOG2_E: f32 = 1.4426950408889634;
+
+// Scene light to the log2 exposure of each layer: the picture's primaries become those of the matrix, unless they are the same
+// (`converts` is 0); light below 0 there counts as 0, or lowers the exposure (`compresses` is not 0). Twin: `Expose::log2`.
+fn onelight_expose(linear: vec3f, input: mat3x3f, matrix: mat3x3f, converts: u32, compresses: u32) -> vec3f {
+    let most = vec3f(ONELIGHT_INPUT_MAX);
+    var light = onelight_finite(linear);
     if converts != 0u {
-        scene = input * scene;
+        light = input * light;
     }
-    return clamp(scene, vec3f(0.0), vec3f(ONELIGHT_INPUT_MAX));
+    let exposure = max(matrix * clamp(light, vec3f(0.0), most), vec3f(ONELIGHT_LOG_FLOOR));
+    var log2_exposure = log2(exposure);
+    if compresses != 0u && any(light < vec3f(0.0)) {
+        let negative = matrix * clamp(-light, vec3f(0.0), most);
+        log2_exposure -= ONELIGHT_LOG2_E * (clamp(negative, vec3f(0.0), ONELIGHT_MOST_NEGATIVE * exposure) / exposure);
+    }
+    return log2_exposure;
 }

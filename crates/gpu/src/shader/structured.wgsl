@@ -3,12 +3,14 @@
 struct OnelightStructured {
     input: mat3x3f,
     exposure: mat3x3f,
+    coupling_matrix: mat3x3f,
     mix_matrix: mat3x3f,
     // From three transmittances to linear RGB.
     decode: mat3x3f,
     mix_offset: vec3f,
     // Number of the table's last node.
     last: f32,
+    coupling: OnelightCurves,
     curves: OnelightCurves,
     mix_curves: OnelightCurves,
     coding: OnelightCoding,
@@ -18,16 +20,18 @@ struct OnelightStructured {
     densities: u32,
     trilinear: u32,
     coded: u32,
-    // Whether `input` is anything but the identity.
+    // Whether `input` is anything but the identity; whether light below 0 lowers the exposure; whether layers are coupled.
     converts: u32,
+    compresses: u32,
+    couples: u32,
 }
 
 const ONELIGHT_LOG2_10: f32 = 3.321928094887362;
 
 // Twin: `StructuredLut::coordinates`.
 fn onelight_coordinates(linear: vec3f, look: OnelightStructured, points: texture_2d<f32>) -> vec3f {
-    let exposure = look.exposure * onelight_scene(linear, look.input, look.converts);
-    let first = onelight_curves(points, look.curves, onelight_log2(exposure));
+    let h = onelight_expose(linear, look.input, look.exposure, look.converts, look.compresses);
+    let first = onelight_developed(points, look.curves, look.coupling, look.coupling_matrix, look.couples, h);
     if look.mixes == 0u {
         return first;
     }

@@ -1,7 +1,9 @@
 //! What does not fit is refused in one sentence, and changes nothing.
 
 use onelight_gpu::{Bindings, BoundLook, FilmPass, Form, LookSettings};
-use onelight_lut::{DirectForm, DirectParts, ExponentialSum, ExponentialTerm, Lut1d, Lut3d, PlainLut, Storage};
+use onelight_lut::{
+    Develop, DirectForm, DirectParts, ExponentialSum, ExponentialTerm, Lut1d, Lut3d, PlainLut, Storage,
+};
 use wgpu::TextureFormat::{R8Unorm, Rgba8Unorm, Rgba16Float};
 
 use crate::adapter::gpu;
@@ -10,7 +12,7 @@ use crate::picture::{Verb, develop, source};
 
 fn with_curves(form: &DirectForm, size: usize) -> DirectForm {
     let curves = Lut1d::sample(size, [-10.0, 10.0], |x| x).unwrap();
-    DirectForm::new(DirectParts { curves, ..form.parts().clone() }).unwrap()
+    DirectForm::new(DirectParts { develop: Develop { coupling: None, curves }, ..form.parts().clone() }).unwrap()
 }
 
 fn with_terms(form: &DirectForm, count: usize) -> DirectForm {

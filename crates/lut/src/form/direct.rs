@@ -1,34 +1,33 @@
 use crate::coding::PowerCoding;
 use crate::error::Error;
 use crate::exponential_sum::ExponentialSum;
+use crate::form::develop::{Develop, DevelopCurves};
+use crate::form::expose::Expose;
 use crate::kernel::block::{Block, BlockMap};
 use crate::kernel::curves::Curves;
 use crate::kernel::expose::expose;
 use crate::kernel::sum::{coded_sum, log2_of_sum};
 use crate::lut1d::Lut1d;
 use crate::number::Number;
-use crate::scene_light::{Rows, check_rows, log2_above_floor, log2_exposure};
+use crate::scene_light::log2_above_floor;
 use fearless_simd::Level;
 
 /// The direct form: no 3D table. Sums of a few exponentials stand for the light through each film.
 ///
-/// 1. `input` matrix, clamped to [0, [`SCENE_MAX`](crate::SCENE_MAX)]
-/// 2. `exposure` matrix, log2 (of at least [`LOG_FLOOR`](crate::LOG_FLOOR)), a curve on each channel
+/// 1. [`Expose`]: scene light to log2 exposure
+/// 2. [`Develop`]: a curve on each channel, and what channels do to each other
 /// 3. where there is a `print`: its sum of exponentials, log2 (of at least [`LOG_FLOOR`](crate::LOG_FLOOR)), a second curve on each channel
 /// 4. the `projection`, a sum of exponentials that gives linear RGB
 /// 5. `coding`
 ///
-/// NaN counts as 0 and infinities as ±[`SCENE_MAX`](crate::SCENE_MAX) before the first matrix.
-///
 /// ```
-/// use onelight_lut::{DirectForm, DirectParts, ExponentialSum, ExponentialTerm, IDENTITY, Lut1d, PowerCoding};
+/// use onelight_lut::{Develop, DirectForm, DirectParts, Expose, ExponentialSum, ExponentialTerm, IDENTITY, Lut1d, PowerCoding};
 /// // A reversal film whose dye falls by half a unit for each stop, seen through three narrow filters.
 /// let unit = |c: usize, v: f32| std::array::from_fn(|k| if k == c { v } else { 0.0 });
 /// let terms = (0..3).map(|c| ExponentialTerm { rate: unit(c, 2.0), weight: unit(c, 1.0) }).collect();
 /// let form = DirectForm::new(DirectParts {
-///     input: IDENTITY,
-///     exposure: IDENTITY,
-///     curves: Lut1d::sample(64, [-10.0, 0.0], |stops| -0.5 * stops)?,
+///     expose: Expose::by(IDENTITY),
+///     develop: Develop { coupling: None, curves: Lut1d::sample(64, [-10.0, 0.0], |stops| -0.5 * stops)? },
 ///     print: None,
 ///     projection: ExponentialSum::new(terms)?,
 ///     coding: PowerCoding::LINEAR,
@@ -39,19 +38,17 @@ use fearless_simd::Level;
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectForm {
     parts: DirectParts,
-    curves: Curves,
+    develop: DevelopCurves,
     print_curves: Option<Curves>,
 }
 
 /// What a [`DirectForm`] is made of, in the order in which it is applied.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectParts {
-    /// From the picture's primaries to those of the exposure matrix.
-    pub input: Rows,
-    /// To the exposure of each channel.
-    pub exposure: Rows,
-    /// The first film: a curve over log2 exposure for each channel.
-    pub curves: Lut1d,
+    /// From scene light to log2 exposure.
+    pub expose: Expose,
+    /// The first film.
+    pub develop: Develop,
     /// A second film behind the first.
     pub print: Option<DirectPrint>,
     /// From the last film's values to linear RGB.
@@ -75,11 +72,11 @@ impl DirectForm {
     /// # Errors
     /// If a matrix holds a number that is not finite.
     pub fn new(parts: DirectParts) -> Result<Self, Error> {
-        check_rows("input matrix", &parts.input)?;
-        check_rows("exposure matrix", &parts.exposure)?;
-        let curves = Curves::new(&parts.curves);
+        parts.expose.check()?;
+        parts.develop.check()?;
+        let develop = DevelopCurves::new(&parts.develop);
         let print_curves = parts.print.as_ref().map(|print| Curves::new(&print.curves));
-        Ok(Self { curves, print_curves, parts })
+        Ok(Self { develop, print_curves, parts })
     }
 
     /// What it is made of.
@@ -96,8 +93,8 @@ impl DirectForm {
     /// The one definition of [`DirectForm::apply`], for float32 and float64.
     #[inline]
     pub(crate) fn apply_in<N: Number>(&self, linear: [N; 3]) -> [N; 3] {
-        let DirectParts { input, exposure, curves, print, projection, coding } = &self.parts;
-        let first = curves.apply_in(log2_exposure(input, exposure, linear));
+        let DirectParts { expose, develop, print, projection, coding } = &self.parts;
+        let first = develop.apply_in(expose.log2_in(linear));
         let shown = match print {
             Some(print) => print.curves.apply_in(print.exposure.apply_in(first).map(log2_above_floor)),
             None => first,
@@ -108,8 +105,8 @@ impl DirectForm {
 
 impl BlockMap for DirectForm {
     fn map_block(&self, level: Level, block: &mut Block, count: usize) {
-        expose(level, &self.parts.input, &self.parts.exposure, block, count);
-        self.curves.apply(level, block, count);
+        expose(level, &self.parts.expose, block, count);
+        self.develop.apply(level, block, count);
         if let (Some(print), Some(curves)) = (&self.parts.print, &self.print_curves) {
             log2_of_sum(level, print.exposure.terms(), block, count);
             curves.apply(level, block, count);
@@ -139,9 +136,8 @@ mod tests {
 
     fn parts() -> DirectParts {
         DirectParts {
-            input: IDENTITY,
-            exposure: IDENTITY,
-            curves: falling(),
+            expose: Expose::by(IDENTITY),
+            develop: Develop { coupling: None, curves: falling() },
             print: None,
             projection: separate(2.0),
             coding: PowerCoding::LINEAR,

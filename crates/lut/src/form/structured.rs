@@ -2,6 +2,8 @@ use fearless_simd::Level;
 
 use crate::coding::PowerCoding;
 use crate::error::Error;
+use crate::form::develop::{Develop, DevelopCurves};
+use crate::form::expose::Expose;
 use crate::interpolate::Interpolation;
 use crate::kernel::block::{Block, BlockMap, interleave};
 use crate::kernel::cells::Axes;
@@ -12,26 +14,23 @@ use crate::kernel::lookup::{lookup, lookup_to};
 use crate::lut1d::Lut1d;
 use crate::lut3d::Lut3d;
 use crate::number::Number;
-use crate::scene_light::{Rows, check_rows, log2_exposure, times};
+use crate::scene_light::{Rows, check_rows, times};
 
 /// The structured form: one fetch from a 3D table whose axes are bent and mixed to fit, so that few nodes do and any input
 /// is in range.
 ///
-/// 1. `input` matrix, clamped to [0, [`SCENE_MAX`](crate::SCENE_MAX)]
-/// 2. `exposure` matrix, log2 (of at least [`LOG_FLOOR`](crate::LOG_FLOOR)), a curve on each channel
+/// 1. [`Expose`]: scene light to log2 exposure
+/// 2. [`Develop`]: a curve on each channel, and what channels do to each other
 /// 3. where there is a `mix`: a matrix with offset, and a second curve on each channel
 /// 4. the 3D table
 /// 5. [`Decode`]
 ///
-/// NaN counts as 0 and infinities as ±[`SCENE_MAX`](crate::SCENE_MAX) before the first matrix.
-///
 /// ```
-/// use onelight_lut::{Decode, IDENTITY, Interpolation, Lut1d, Lut3d, StructuredLut, StructuredParts};
+/// use onelight_lut::{Decode, Develop, Expose, IDENTITY, Interpolation, Lut1d, Lut3d, StructuredLut, StructuredParts};
 /// let form = StructuredLut::new(StructuredParts {
-///     input: IDENTITY,
-///     exposure: IDENTITY,
+///     expose: Expose::by(IDENTITY),
 ///     // The table's axes are stops from -10 to 0.
-///     curves: Lut1d::sample(64, [-10.0, 0.0], |stops| 1.0 + stops / 10.0)?,
+///     develop: Develop { coupling: None, curves: Lut1d::sample(64, [-10.0, 0.0], |stops| 1.0 + stops / 10.0)? },
 ///     mix: None,
 ///     table: Lut3d::identity(5)?,
 ///     decode: Decode::Coded,
@@ -43,19 +42,17 @@ use crate::scene_light::{Rows, check_rows, log2_exposure, times};
 #[derive(Clone, Debug, PartialEq)]
 pub struct StructuredLut {
     parts: StructuredParts,
-    curves: Curves,
+    develop: DevelopCurves,
     mix_curves: Option<Curves>,
 }
 
 /// What a [`StructuredLut`] is made of, in the order in which it is applied.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StructuredParts {
-    /// From the picture's primaries to those of the exposure matrix.
-    pub input: Rows,
-    /// To the exposure of each channel.
-    pub exposure: Rows,
-    /// A curve over log2 exposure for each channel; its values are the coordinates, or what `mix` makes them of.
-    pub curves: Lut1d,
+    /// From scene light to log2 exposure.
+    pub expose: Expose,
+    /// The first film, whose values are the coordinates, or what `mix` makes them of.
+    pub develop: Develop,
     /// A second mix of the channels, with its curves.
     pub mix: Option<Mix>,
     /// The table, read at coordinates from 0 to 1.
@@ -97,8 +94,8 @@ impl StructuredLut {
     /// # Errors
     /// If a matrix holds a number that is not finite.
     pub fn new(parts: StructuredParts) -> Result<Self, Error> {
-        check_rows("input matrix", &parts.input)?;
-        check_rows("exposure matrix", &parts.exposure)?;
+        parts.expose.check()?;
+        parts.develop.check()?;
         if let Some(Mix { matrix, offset, .. }) = &parts.mix {
             check_rows("mix matrix", matrix)?;
             check_rows("mix offset", &[*offset; 3])?;
@@ -106,9 +103,9 @@ impl StructuredLut {
         if let Decode::Density { matrix, .. } = &parts.decode {
             check_rows("decode matrix", matrix)?;
         }
-        let curves = Curves::new(&parts.curves);
+        let develop = DevelopCurves::new(&parts.develop);
         let mix_curves = parts.mix.as_ref().map(|mix| Curves::new(&mix.curves));
-        Ok(Self { curves, mix_curves, parts })
+        Ok(Self { develop, mix_curves, parts })
     }
 
     /// What it is made of.
@@ -147,8 +144,8 @@ impl StructuredLut {
 
     #[inline]
     fn coordinates_in<N: Number>(&self, linear: [N; 3]) -> [N; 3] {
-        let StructuredParts { input, exposure, curves, mix, .. } = &self.parts;
-        let first = curves.apply_in(log2_exposure(input, exposure, linear));
+        let StructuredParts { expose, develop, mix, .. } = &self.parts;
+        let first = develop.apply_in(expose.log2_in(linear));
         match mix {
             Some(Mix { matrix, offset, curves }) => {
                 let [r, g, b] = times(matrix, first);
@@ -170,8 +167,8 @@ impl StructuredLut {
 
     /// The block's coordinates in the table.
     fn find_block(&self, level: Level, block: &mut Block, count: usize) {
-        expose(level, &self.parts.input, &self.parts.exposure, block, count);
-        self.curves.apply(level, block, count);
+        expose(level, &self.parts.expose, block, count);
+        self.develop.apply(level, block, count);
         if let (Some(mix), Some(curves)) = (&self.parts.mix, &self.mix_curves) {
             affine(level, &mix.matrix, mix.offset, block, count);
             curves.apply(level, block, count);
@@ -212,9 +209,11 @@ mod tests {
     fn parts() -> StructuredParts {
         let curve = |size: usize| (0..size).map(|i| [i as f32 / (size - 1) as f32; 3]).collect();
         StructuredParts {
-            input: IDENTITY,
-            exposure: IDENTITY,
-            curves: Lut1d::new(Domain::common(-10.0, 0.0).unwrap(), curve(11)).unwrap(),
+            expose: Expose::by(IDENTITY),
+            develop: Develop {
+                coupling: None,
+                curves: Lut1d::new(Domain::common(-10.0, 0.0).unwrap(), curve(11)).unwrap(),
+            },
             mix: None,
             table: Lut3d::identity(5).unwrap(),
             decode: Decode::Coded,
@@ -256,7 +255,7 @@ mod tests {
         assert_eq!(lut.apply([f32::NAN; 3]), lut.apply([0.0; 3]));
         assert_eq!(lut.apply([-5.0; 3]), lut.apply([0.0; 3]));
         assert_eq!(lut.apply([f32::INFINITY; 3]), lut.apply([1e30; 3]));
-        let bad = StructuredParts { input: [[f32::NAN; 3]; 3], ..parts() };
+        let bad = StructuredParts { expose: Expose::by([[f32::NAN; 3]; 3]), ..parts() };
         assert!(StructuredLut::new(bad).is_err());
     }
 }

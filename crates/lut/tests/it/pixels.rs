@@ -2,9 +2,9 @@
 
 use half::f16;
 use onelight_lut::{
-    Channels, Decode, DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, IDENTITY,
-    Interpolation, Lut1d, Lut3d, Mix, PixelMap, Pixels, PixelsMut, PlainLut, PowerCoding, Rows, Sample, SceneSampler,
-    Shaper, SimdLevel, StructuredLut, StructuredParts,
+    Channels, Coupling, Decode, Develop, DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm,
+    Expose, IDENTITY, Interpolation, Lut1d, Lut3d, Mix, NegativeLight, PixelMap, Pixels, PixelsMut, PlainLut,
+    PowerCoding, Rows, Sample, SceneSampler, Shaper, SimdLevel, StructuredLut, StructuredParts,
 };
 
 /// Coordinates in a table differ by their roundings, some 3e-7; the forms here change by less than 20 over the table, and a
@@ -51,11 +51,23 @@ fn plain(how: Interpolation) -> PlainLut {
     PlainLut::new(Shaper::log2(0.02, 16.0).unwrap(), table(17), how)
 }
 
+/// Light of a wide gamut, compressed where primaries are converted.
+fn expose(input: Rows) -> Expose {
+    let negative = if input == MIXED { NegativeLight::Compress } else { NegativeLight::Clip };
+    Expose { input, negative, ..Expose::by(MIXED) }
+}
+
+/// Layers that hold each other back.
+fn develop(top: f32) -> Develop {
+    let matrix = [[0.5, -0.4, -0.1], [-0.4, 0.8, -0.4], [-0.1, -0.4, 0.5]];
+    let coupling = Coupling { curves: curves(-9.0, 4.0, 1.5), matrix };
+    Develop { coupling: Some(coupling), curves: curves(-10.0, 5.0, top) }
+}
+
 fn structured(decode: Decode, mix: Option<Mix>) -> StructuredLut {
     let parts = StructuredParts {
-        input: if mix.is_some() { MIXED } else { IDENTITY },
-        exposure: MIXED,
-        curves: curves(-10.0, 5.0, 1.0),
+        expose: expose(if mix.is_some() { MIXED } else { IDENTITY }),
+        develop: develop(1.0),
         mix,
         table: table(9),
         decode,
@@ -83,14 +95,7 @@ fn sum(terms: usize, light: f32) -> ExponentialSum {
 
 fn direct(print: Option<DirectPrint>) -> DirectForm {
     let coding = PowerCoding::new(2.4, 0.055).unwrap();
-    let parts = DirectParts {
-        input: MIXED,
-        exposure: MIXED,
-        curves: curves(-10.0, 5.0, 2.0),
-        print,
-        projection: sum(13, 1.5),
-        coding,
-    };
+    let parts = DirectParts { expose: expose(MIXED), develop: develop(2.0), print, projection: sum(13, 1.5), coding };
     DirectForm::new(parts).unwrap()
 }
 

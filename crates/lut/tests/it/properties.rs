@@ -1,9 +1,9 @@
 //! Laws of tables, shapers and forms on random input. What was found by them is kept below as a test with a name.
 
 use onelight_lut::{
-    Channels, Decode, DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm, Interpolation,
-    Lut1d, Lut3d, Mix, PixelMap, Pixels, PixelsMut, PlainLut, PowerCoding, Rows, Shaper, SimdLevel, StructuredLut,
-    StructuredParts, bake, bake_coordinates,
+    Channels, Coupling, Decode, Develop, DirectForm, DirectParts, DirectPrint, Domain, ExponentialSum, ExponentialTerm,
+    Expose, Interpolation, Lut1d, Lut3d, Mix, NegativeLight, PixelMap, Pixels, PixelsMut, PlainLut, PowerCoding, Rows,
+    Shaper, SimdLevel, StructuredLut, StructuredParts, bake, bake_coordinates,
 };
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -128,13 +128,25 @@ fn sum() -> impl Strategy<Value = ExponentialSum> {
     prop::collection::vec(term, 1..12).prop_map(|terms| ExponentialSum::new(terms).unwrap())
 }
 
+fn expose() -> impl Strategy<Value = Expose> {
+    let negative = prop_oneof![Just(NegativeLight::Clip), Just(NegativeLight::Compress)];
+    (rows(-0.5, 1.5), rows(-0.1, 2.0), negative).prop_map(|(input, matrix, negative)| Expose {
+        input,
+        matrix,
+        negative,
+    })
+}
+
+fn develop(top: f32) -> impl Strategy<Value = Develop> {
+    let coupling = (curves(2.0), rows(-1.0, 1.0)).prop_map(|(curves, matrix)| Coupling { curves, matrix });
+    (prop::option::of(coupling), curves(top)).prop_map(|(coupling, curves)| Develop { coupling, curves })
+}
+
 fn direct() -> impl Strategy<Value = DirectForm> {
     let print = prop::option::of((sum(), curves(4.0)).prop_map(|(exposure, curves)| DirectPrint { exposure, curves }));
-    (rows(-0.5, 1.5), rows(-0.1, 2.0), curves(4.0), print, sum(), coding()).prop_map(
-        |(input, exposure, curves, print, projection, coding)| {
-            DirectForm::new(DirectParts { input, exposure, curves, print, projection, coding }).unwrap()
-        },
-    )
+    (expose(), develop(4.0), print, sum(), coding()).prop_map(|(expose, develop, print, projection, coding)| {
+        DirectForm::new(DirectParts { expose, develop, print, projection, coding }).unwrap()
+    })
 }
 
 fn structured() -> impl Strategy<Value = StructuredLut> {
@@ -147,10 +159,9 @@ fn structured() -> impl Strategy<Value = StructuredLut> {
     let table = prop::collection::vec(prop::array::uniform3(-1.0..6.0_f32), 27)
         .prop_map(|entries| Lut3d::new(3, entries).unwrap());
     let how = prop_oneof![Just(BOTH[0]), Just(BOTH[1])];
-    (rows(-0.5, 1.5), rows(-0.1, 2.0), curves(1.0), prop::option::of(mix), table, decode, how).prop_map(
-        |(input, exposure, curves, mix, table, decode, interpolation)| {
-            let parts = StructuredParts { input, exposure, curves, mix, table, decode, interpolation };
-            StructuredLut::new(parts).unwrap()
+    (expose(), develop(1.0), prop::option::of(mix), table, decode, how).prop_map(
+        |(expose, develop, mix, table, decode, interpolation)| {
+            StructuredLut::new(StructuredParts { expose, develop, mix, table, decode, interpolation }).unwrap()
         },
     )
 }

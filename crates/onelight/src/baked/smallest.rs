@@ -3,6 +3,8 @@
 use onelight_lut::{SamplingLaw, Search, Storage};
 
 use super::form::Baked;
+#[cfg(feature = "formats")]
+use super::form::BakedForm;
 use super::recipe::{Form, Recipe};
 use crate::certify::Certifier;
 use crate::error::{Error, ErrorKind};
@@ -47,13 +49,14 @@ pub fn smallest_under(look: &Look, limit: f64, progress: impl Fn(usize, usize)) 
             let exact = Baked::new(look, &recipe, None)?;
             for storage in stored {
                 let baked = exact.stored(storage)?;
-                let quick = certifier.certify(&samples, |rgb| baked.apply(rgb), Search::SamplesOnly)?;
+                let apply = as_written(&baked)?;
+                let quick = certifier.certify(&samples, &apply, Search::SamplesOnly)?;
                 nearest = nearest.min(quick.max_found);
                 // An ascent only finds more.
                 if quick.max_found > limit {
                     continue;
                 }
-                let found = certifier.certify(&samples, |rgb| baked.apply(rgb), Search::Ascent)?;
+                let found = certifier.certify(&samples, &apply, Search::Ascent)?;
                 let bytes = storage.bytes() * size.pow(3);
                 if found.max_found <= limit && best.is_none_or(|(least, _)| bytes < least) {
                     best = Some((bytes, Recipe { storage, ..recipe }));
@@ -70,4 +73,27 @@ pub fn smallest_under(look: &Look, limit: f64, progress: impl Fn(usize, usize)) 
         let what = "largest difference of a structured table".to_owned();
         ErrorKind::Setting { what, found: limit, expected: expected() }.into()
     })
+}
+
+/// From scene-linear to display-coded colours.
+#[cfg(feature = "formats")]
+type Map<'a> = Box<dyn Fn([f32; 3]) -> [f32; 3] + Sync + 'a>;
+
+/// The table as the file has it that it is written to: a CLF holds coupled layers only nearly.
+#[cfg(feature = "formats")]
+fn as_written(baked: &Baked) -> Result<Map<'_>, Error> {
+    match baked.form() {
+        BakedForm::Structured(lut) => {
+            let file = onelight_formats::ClfProcess::from_structured(lut)?;
+            Ok(Box::new(move |rgb| file.apply(rgb)))
+        }
+        _ => Ok(Box::new(|rgb| baked.apply(rgb))),
+    }
+}
+
+/// The table as it is: without files there is no other.
+#[cfg(not(feature = "formats"))]
+#[expect(clippy::unnecessary_wraps, reason = "the same call with and without files")]
+fn as_written(baked: &Baked) -> Result<impl Fn([f32; 3]) -> [f32; 3] + Sync + '_, Error> {
+    Ok(|rgb| baked.apply(rgb))
 }

@@ -7,7 +7,7 @@ use super::sum::Sum;
 use super::training::Training;
 use crate::error::Error;
 use crate::reference::Reference;
-use crate::structured::{coding, over_log2, rows};
+use crate::structured::{coding, over_log2};
 
 /// Both sums of a process.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,9 +55,8 @@ impl Reference {
         };
         let camera = self.camera_curves().to_array();
         let parts = DirectParts {
-            input: rows(self.to_srgb()),
-            exposure: rows(self.exposure_matrix().matrix()),
-            curves: over_log2(self.camera_curves(), |layer, h| camera[layer].amount(LogExposure(h)).0)?,
+            expose: self.expose(),
+            develop: self.develop_form(|layer, h| camera[layer].amount(LogExposure(h)).0)?,
             print,
             projection: stages.projection.rounded()?,
             coding: coding(self.coding())?,

@@ -1,7 +1,7 @@
-use onelight_film::{DyeModel, Matching, PerLayer, Tail};
+use onelight_film::{DyeModel, InterImage, Matching, PerLayer, PrintCurves, Stock, Tail, WideGamut};
 use onelight_printing::{
     Aim, Calibration, EquivalentNeutralDensity, Filters, HeatGlass, Infrared, NEUTRAL_DENSITY, Printer, PrinterLight,
-    Projector, Wratten,
+    Projector, White, Wratten,
 };
 use onelight_spectra::Reconstruction;
 
@@ -41,12 +41,49 @@ pub struct FilmProcess {
     pub dyes: DyeModel,
     /// How exposures meet the characteristic curves.
     pub matching: Matching,
+    /// How strongly the camera film's layers inhibit each other's development.
+    pub inter_image: InterImageChoice,
     /// How a spectrum is made for an RGB value.
     pub reconstruction: Reconstruction,
+    /// What light outside the sRGB primaries does.
+    pub gamut: WideGamut,
     /// The light that the film is seen by.
     pub projector: Projector,
+    /// What a viewer takes for white. Grey is aimed at after it, and [`FilmProcess::neutral_density`] is relative to it.
+    pub white: White,
     /// The RGB that comes in and goes out.
     pub spaces: ColourSpaces,
+}
+
+/// Where the strength of the inter-image effect is from.
+///
+/// ```
+/// use onelight::{FilmProcess, InterImageChoice};
+/// use onelight::film::InterImage;
+/// let muted = FilmProcess { inter_image: InterImageChoice::Fixed(InterImage::NONE), ..FilmProcess::default() };
+/// let (muted, usual) = (muted.compile()?, FilmProcess::default().compile()?);
+/// let spread = |rgb: [f64; 3]| rgb[0] - rgb[2];
+/// assert!(spread(muted.develop([0.5, 0.2, 0.1])) < spread(usual.develop([0.5, 0.2, 0.1])));
+/// # Ok::<(), onelight::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum InterImageChoice {
+    /// The camera film's own: what its data sheet's files say, else that of its kind ([`Stock::inter_image`]).
+    #[default]
+    Film,
+    /// This one, whatever the film.
+    Fixed(InterImage),
+}
+
+impl InterImageChoice {
+    /// The strength for a film: none for one that is not made for a camera.
+    #[must_use]
+    pub fn of(self, camera: &Stock) -> InterImage {
+        match self {
+            Self::Film => camera.inter_image().map_or(InterImage::NONE, |(own, _)| own),
+            Self::Fixed(fixed) => fixed,
+        }
+    }
 }
 
 /// How a negative is printed: the film behind it, and the printer. Reversal film has none of it.
@@ -60,6 +97,8 @@ pub struct FilmProcess {
 pub struct Printing {
     /// The print film: a stock of kind print.
     pub film: StockRef,
+    /// What the characteristic curves of its sheet are.
+    pub curves: PrintCurves,
     /// Three separated beams in the printer, or a white one.
     pub light: PrinterLight,
     /// The gelatin filters in the printer.
@@ -95,8 +134,11 @@ impl Default for FilmProcess {
             overexposure: 0.0,
             dyes: DyeModel::default(),
             matching: Matching::default(),
+            inter_image: InterImageChoice::default(),
             reconstruction: Reconstruction::default(),
+            gamut: WideGamut::default(),
             projector: Projector::default(),
+            white: White::default(),
             spaces: ColourSpaces::default(),
         }
     }
@@ -109,6 +151,23 @@ impl FilmProcess {
     /// If no stock has this id, or it is a print film.
     pub fn for_camera(camera: &str) -> Result<Self, Error> {
         Ok(Self { camera: camera.into(), print: default_print(camera)?.map(Printing::on), ..Self::default() })
+    }
+
+    /// The same process as the talk has it, film by its sheet alone: layers that do not inhibit each other, the bare lamp for white,
+    /// light outside the sRGB primaries clipped (\[Gotanda2010\]). The preset `talk` of the command line.
+    ///
+    /// ```
+    /// use onelight::FilmProcess;
+    /// let talk = FilmProcess::default().as_in_the_talk().compile()?;
+    /// // Clear film is yellowish and not bright.
+    /// let white = talk.develop_linear([1e6; 3]);
+    /// assert!(white[0] < 0.95 && white[2] < 0.85);
+    /// # Ok::<(), onelight::Error>(())
+    /// ```
+    #[must_use]
+    pub fn as_in_the_talk(self) -> Self {
+        let inter_image = InterImageChoice::Fixed(InterImage::NONE);
+        Self { inter_image, white: White::Lamp, gamut: WideGamut::Clip, ..self }
     }
 
     /// Whether the numbers are within their ranges, and every setting changes something.
@@ -124,6 +183,14 @@ impl FilmProcess {
             )
             .into());
         }
+        if self.dyes == DyeModel::Literal && self.print.as_ref().is_some_and(|p| p.curves == PrintCurves::Principal) {
+            return Err(ErrorKind::Contradiction(
+                "dyes literal takes each density of a print for its dye's amount: print_curves principal changes nothing, \
+                 expected dyes wedge or constants"
+                    .to_owned(),
+            )
+            .into());
+        }
         self.print.as_ref().map_or(Ok(()), Printing::check)
     }
 }
@@ -134,6 +201,7 @@ impl Printing {
     pub fn on(film: &str) -> Self {
         Self {
             film: film.into(),
+            curves: PrintCurves::default(),
             light: PrinterLight::default(),
             filters: Filters::default(),
             beam_density: Printer::default().beam_density.to_array(),

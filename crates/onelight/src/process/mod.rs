@@ -10,7 +10,7 @@ mod tone;
 use onelight_printing::Aim;
 
 pub use approach::Approach;
-pub use film::{FilmProcess, Printing};
+pub use film::{FilmProcess, InterImageChoice, Printing};
 pub(crate) use film::{check_exposure, check_lights};
 pub use first::{FirstControls, FirstProcess};
 pub use spaces::ColourSpaces;

@@ -68,6 +68,7 @@ impl ProcessKeys {
         let (camera, print) = self.stocks()?;
         let print = print.map(|film| Printing {
             film,
+            curves: self.print_curves,
             light: self.light,
             filters: self.filters,
             beam_density: self.beam_density,
@@ -85,8 +86,11 @@ impl ProcessKeys {
             overexposure: self.overexposure,
             dyes: self.dyes,
             matching: self.matching,
+            inter_image: self.inter_image,
             reconstruction: self.reconstruction,
+            gamut: self.gamut,
             projector: self.projector,
+            white: self.white,
             spaces,
         })
     }
@@ -132,6 +136,7 @@ impl ProcessKeys {
     fn idle_keys(&self) -> (Vec<&'static str>, String) {
         let usual = Self::default();
         let printer = [
+            ("print_curves", self.print_curves != usual.print_curves),
             ("light", self.light != usual.light),
             ("filters", self.filters != usual.filters),
             ("beam_density", self.beam_density != usual.beam_density),
@@ -146,8 +151,11 @@ impl ProcessKeys {
             ("overexposure", self.overexposure != usual.overexposure),
             ("dyes", self.dyes != usual.dyes),
             ("matching", self.matching != usual.matching),
+            ("interimage", self.inter_image != usual.inter_image),
             ("reconstruction", self.reconstruction != usual.reconstruction),
+            ("gamut", self.gamut != usual.gamut),
             ("projector", self.projector != usual.projector),
+            ("white", self.white != usual.white),
         ];
         let density = [("neutral_density", self.neutral_density != usual.neutral_density)];
         let first = [("first", self.first != usual.first)];
@@ -227,8 +235,10 @@ impl ProcessKeys {
     fn take_film(&mut self, film: &FilmProcess) {
         (self.aim, self.neutral_density, self.overexposure) = (film.aim, film.neutral_density, film.overexposure);
         (self.dyes, self.matching) = (film.dyes, film.matching);
+        (self.inter_image, self.gamut, self.white) = (film.inter_image, film.gamut, film.white);
         (self.reconstruction, self.projector) = (film.reconstruction, film.projector);
         if let Some(print) = &film.print {
+            self.print_curves = print.curves;
             (self.light, self.filters, self.beam_density) = (print.light, print.filters, print.beam_density);
             (self.calibration, self.points) = (print.calibration, print.points);
             (self.infrared, self.glass, self.red_tail) = (print.infrared, print.glass, print.red_tail);

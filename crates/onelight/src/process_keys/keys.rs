@@ -1,14 +1,14 @@
-use onelight_film::{DyeModel, Matching, Tail};
+use onelight_film::{DyeModel, InterImage, Matching, PrintCurves, Tail, WideGamut};
 use onelight_printing::{
-    Aim, Calibration, Filters, HeatGlass, Infrared, NEUTRAL_DENSITY, Printer, PrinterLight, Projector,
+    Aim, Calibration, Filters, HeatGlass, Infrared, NEUTRAL_DENSITY, Printer, PrinterLight, Projector, White,
 };
 use onelight_spectra::{Reconstruction, TransferCurve};
 use serde::{Deserialize, Serialize};
 
 use super::version::FormatVersion;
-use super::word_lists::{self, parse_calibration, parse_print};
+use super::word_lists::{self, parse_calibration, parse_inter_image, parse_print};
 use crate::error::Error;
-use crate::process::{Approach, DEFAULT_CAMERA, DEFAULT_PRINT, FirstControls};
+use crate::process::{Approach, DEFAULT_CAMERA, DEFAULT_PRINT, FirstControls, InterImageChoice};
 use crate::word::{self, WorkingSpace};
 
 /// Every key of `look.toml` with its value: what a file says and a command line changes before it is one kind of [`Process`].
@@ -18,7 +18,7 @@ use crate::word::{self, WorkingSpace};
 ///
 /// ```
 /// use onelight::{Aim, ProcessKeys};
-/// let mut keys = ProcessKeys::from_toml("look.toml", "version = 1\ncamera = \"fuji-velvia-50\"\n")?;
+/// let mut keys = ProcessKeys::from_toml("look.toml", "version = 2\ncamera = \"fuji-velvia-50\"\n")?;
 /// keys.aim = Aim::Sheet;
 /// assert_eq!(keys.process()?.name(), "fuji-velvia-50");
 /// keys.points = [1.0, 0.0, 0.0];
@@ -30,7 +30,7 @@ use crate::word::{self, WorkingSpace};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ProcessKeys {
-    /// The version of this description's format.
+    /// The version that the description was written in; it is written in the newest.
     pub version: FormatVersion,
     /// The simulation, the talk's first approach, or a tone mapping to compare with.
     #[serde(with = "word::text")]
@@ -65,9 +65,18 @@ pub struct ProcessKeys {
     /// How exposures meet the characteristic curves.
     #[serde(with = "word::text")]
     pub matching: Matching,
+    /// How strongly the camera film's layers inhibit each other's development: `"film"` for its own.
+    #[serde(rename = "interimage", with = "word_lists::inter_image")]
+    pub inter_image: InterImageChoice,
     /// How a spectrum is made for an RGB value.
     #[serde(with = "word::text")]
     pub reconstruction: Reconstruction,
+    /// What light outside the sRGB primaries does.
+    #[serde(with = "word::text")]
+    pub gamut: WideGamut,
+    /// What the characteristic curves of the print film's sheet are.
+    #[serde(with = "word::text")]
+    pub print_curves: PrintCurves,
     /// Three separated beams in the printer, or a white one.
     #[serde(with = "word::text")]
     pub light: PrinterLight,
@@ -93,6 +102,9 @@ pub struct ProcessKeys {
     /// The light that the film is seen by.
     #[serde(with = "word::text")]
     pub projector: Projector,
+    /// What a viewer takes for white.
+    #[serde(with = "word::text")]
+    pub white: White,
     /// Primaries of the scene-linear RGB that comes in.
     #[serde(with = "word::text")]
     pub input_space: WorkingSpace,
@@ -109,7 +121,7 @@ pub struct ProcessKeys {
 impl Default for ProcessKeys {
     fn default() -> Self {
         Self {
-            version: FormatVersion,
+            version: FormatVersion::default(),
             approach: Approach::default(),
             camera: DEFAULT_CAMERA.to_owned(),
             camera_sheet: None,
@@ -122,7 +134,10 @@ impl Default for ProcessKeys {
             overexposure: 0.0,
             dyes: DyeModel::default(),
             matching: Matching::default(),
+            inter_image: InterImageChoice::default(),
             reconstruction: Reconstruction::default(),
+            gamut: WideGamut::default(),
+            print_curves: PrintCurves::default(),
             light: PrinterLight::default(),
             filters: Filters::default(),
             beam_density: Printer::default().beam_density.to_array(),
@@ -132,6 +147,7 @@ impl Default for ProcessKeys {
             glass: HeatGlass::default(),
             red_tail: Tail::default(),
             projector: Projector::default(),
+            white: White::default(),
             input_space: WorkingSpace::default(),
             output_space: WorkingSpace::default(),
             output_coding: TransferCurve::default(),
@@ -160,6 +176,20 @@ impl ProcessKeys {
     #[must_use]
     pub fn print_sheet(&self) -> Option<SheetKeys<'_>> {
         sheet(self.print_sheet.as_deref(), self.print_sha256.as_deref())
+    }
+
+    /// Film by its sheet alone, as the talk has it: the settings of [`FilmProcess::as_in_the_talk`](crate::FilmProcess::as_in_the_talk).
+    pub fn set_talk(&mut self) {
+        self.inter_image = InterImageChoice::Fixed(InterImage::NONE);
+        (self.white, self.gamut) = (White::Lamp, WideGamut::Clip);
+    }
+
+    /// What `interimage` is for a word: `film`, `none`, `negative`, `reversal`, or two numbers as `0.6,0.06`.
+    ///
+    /// # Errors
+    /// If the word is none of these, or a number is out of its range.
+    pub fn parse_inter_image(word: &str) -> Result<InterImageChoice, Error> {
+        parse_inter_image(word)
     }
 
     /// What `print` is for a word: the id of a film, or `None` for `none`.

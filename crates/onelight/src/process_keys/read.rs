@@ -1,16 +1,16 @@
 //! Descriptions of looks as the text of `look.toml`.
 
 use super::keys::ProcessKeys;
-use super::version::VERSION;
+use super::version::{FormatVersion, NEWEST};
 use crate::error::{Error, ErrorKind};
 use crate::message::{cut, nearest, one_line};
-use crate::process::{Process, default_print};
+use crate::process::{Approach, Process, default_print};
 
 /// More text than any description needs.
 const MAX_BYTES: usize = 64 * 1024;
 
 /// Every key, for messages; a test holds it against the struct.
-const KEYS: [&str; 23] = [
+const KEYS: [&str; 27] = [
     "version",
     "approach",
     "camera",
@@ -20,7 +20,10 @@ const KEYS: [&str; 23] = [
     "overexposure",
     "dyes",
     "matching",
+    "interimage",
     "reconstruction",
+    "gamut",
+    "print_curves",
     "light",
     "filters",
     "beam_density",
@@ -30,11 +33,14 @@ const KEYS: [&str; 23] = [
     "glass",
     "red_tail",
     "projector",
+    "white",
     "input_space",
     "output_space",
     "output_coding",
     "first",
 ];
+/// The keys that version 1 did not have.
+const NEW_KEYS: [&str; 4] = ["interimage", "gamut", "print_curves", "white"];
 /// The keys of the table `[first]`.
 const FIRST_KEYS: [&str; 5] = ["contrast", "brightness", "temperature", "saturation", "curve"];
 /// The keys that only data sheets of one's own need.
@@ -42,7 +48,8 @@ const SHEET_KEYS: [&str; 4] = ["camera_sheet", "camera_sha256", "print_sheet", "
 
 impl ProcessKeys {
     /// Reads a `look.toml` of at most 64 KiB; `file` is the name that messages carry. Keys left out have their default, `print` the
-    /// one that goes with the camera film; `version` is needed. Whether the keys go together is not looked at yet.
+    /// one that goes with the camera film; `version` is needed, and what a file of version 1 could not say is what it meant
+    /// ([`FormatVersion`]). Whether the keys go together is not looked at yet.
     ///
     /// # Errors
     /// If it is no TOML, has an unknown key or word (the message names line and nearest), or another version.
@@ -72,7 +79,19 @@ impl ProcessKeys {
             at(line, problem)
         })?;
         if table.get("version").is_none() {
-            return Err(at(1, format!("no version, expected `version = {VERSION}`")));
+            return Err(at(1, format!("no version, expected `version = {NEWEST}`")));
+        }
+        if keys.version == FormatVersion::One {
+            if let Some(key) = NEW_KEYS.into_iter().find(|key| table.contains_key(*key)) {
+                let line = text.lines().position(|line| line.trim_start().starts_with(key)).map_or(1, |line| line + 1);
+                let problem =
+                    format!("{key} is a key of version 2, found `version = 1`, expected `version = {NEWEST}`");
+                return Err(at(line, problem));
+            }
+            // What it meant before there were such keys; other approaches have none of them.
+            if keys.approach == Approach::Second {
+                keys.set_talk();
+            }
         }
         if !table.contains_key("print") {
             if keys.camera_sheet.is_some() {
@@ -132,7 +151,7 @@ fn wrong_type(table: &toml::Table, written: &str) -> Option<String> {
         toml::Value::Table(_) => "a table",
     };
     let expected = match key {
-        "version" => "1",
+        "version" => "1 or 2",
         "neutral_density" | "overexposure" | "contrast" | "brightness" | "temperature" | "saturation" => "a number",
         "points" | "beam_density" => "three numbers, red, green, blue",
         "filters" => "a list of words in quotes",
@@ -174,36 +193,36 @@ mod tests {
         let text = look.to_toml();
         assert!(text.contains("filters = [\"70\", \"99\"]") && text.contains("calibration = \"2\""), "{text}");
         assert_eq!(ProcessKeys::from_toml("look.toml", &text).unwrap(), look);
-        let short = "version = 1\nneutral_density = 1\n[first]\ncontrast = 2\n";
+        let short = "version = 2\nneutral_density = 1\n[first]\ncontrast = 2\n";
         let look = ProcessKeys::from_toml("look.toml", short).unwrap();
         assert_eq!((look.neutral_density, look.first.contrast, look.first.saturation), (1.0, 2.0, 1.0));
-        assert!(message("version = 1\ncalibration = \"31\"\n").contains("exact, or 0 to 30"));
-        assert!(message("version = 1\nfilters = [\"71\"]\n").contains("one of 70, 99, 98, 2b"));
-        assert!(message("version = 1\n[first]\ncontrats = 2\n").contains("did you mean \"contrast\""));
+        assert!(message("version = 2\ncalibration = \"31\"\n").contains("exact, or 0 to 30"));
+        assert!(message("version = 2\nfilters = [\"71\"]\n").contains("one of 70, 99, 98, 2b"));
+        assert!(message("version = 2\n[first]\ncontrats = 2\n").contains("did you mean \"contrast\""));
     }
 
     #[test]
     fn mistakes_are_named() {
         assert_eq!(
-            message("version = 1\ncamra = \"kodak-5207\"\n"),
+            message("version = 2\ncamra = \"kodak-5207\"\n"),
             "look.toml:2: unknown key \"camra\", did you mean \"camera\"?"
         );
-        assert_eq!(message("camera = \"kodak-5207\"\n"), "look.toml:1: no version, expected `version = 1`");
-        assert_eq!(message("version = 2\n"), "look.toml:1: version: found 2, expected 1");
-        assert!(message("version = 1\n\naim = \"netral\"\n").starts_with("look.toml:3: aim: found \"netral\""));
+        assert_eq!(message("camera = \"kodak-5207\"\n"), "look.toml:1: no version, expected `version = 2`");
+        assert_eq!(message("version = 3\n"), "look.toml:1: version: found 3, expected 1 or 2");
+        assert!(message("version = 2\n\naim = \"netral\"\n").starts_with("look.toml:3: aim: found \"netral\""));
         assert_eq!(
-            message("version = 1\n\"camera x\" = 3\n"),
+            message("version = 2\n\"camera x\" = 3\n"),
             "look.toml:2: unknown key \"camera x\", did you mean \"camera\"?"
         );
-        let far = message("version = 1\nzzz = 3\n");
+        let far = message("version = 2\nzzz = 3\n");
         assert!(far.starts_with("look.toml:2: unknown key \"zzz\", expected one of version, approach,"), "{far}");
-        assert!(message(&format!("version = 1\n{} = 3\n", "z".repeat(1000))).len() < 400);
+        assert!(message(&format!("version = 2\n{} = 3\n", "z".repeat(1000))).len() < 400);
         assert_eq!(
-            message("version = 1\nprint = \"NONE\"\n"),
+            message("version = 2\nprint = \"NONE\"\n"),
             "look.toml:2: print: found \"NONE\", expected the id of a print film, or none (did you mean \"none\"?)"
         );
         assert!(message("version = \n").starts_with("look.toml:1: "));
-        assert!(message("version = 1\ncamera = \"kodak-52007\"\n").contains("kodak-5207"));
+        assert!(message("version = 2\ncamera = \"kodak-52007\"\n").contains("kodak-5207"));
         assert!(message(&"#\n".repeat(1 << 20)).contains("expected at most"));
     }
 
@@ -223,11 +242,30 @@ mod tests {
             ("filters = \"70\"", "filters: found a word in quotes, expected a list of words in quotes"),
             ("first = 3", "first: found a number, expected a table"),
         ] {
-            assert_eq!(message(&format!("version = 1\n{line}\n")), format!("look.toml:2: {expected}"));
+            assert_eq!(message(&format!("version = 2\n{line}\n")), format!("look.toml:2: {expected}"));
         }
-        assert_eq!(message("version = \"1\"\n"), "look.toml:1: version: found a word in quotes, expected 1");
-        assert_eq!(message("version = 1.0\n"), "look.toml:1: version: found a number, expected 1");
-        assert_eq!(message("version = -3\n"), "look.toml:1: version: found -3, expected 1");
+        assert_eq!(message("version = \"1\"\n"), "look.toml:1: version: found a word in quotes, expected 1 or 2");
+        assert_eq!(message("version = 1.0\n"), "look.toml:1: version: found a number, expected 1 or 2");
+        assert_eq!(message("version = -3\n"), "look.toml:1: version: found -3, expected 1 or 2");
+    }
+
+    #[test]
+    fn version_1_means_what_it_meant() {
+        use onelight_printing::White;
+        let old = ProcessKeys::from_toml("look.toml", "version = 1\ncamera = \"kodak-5219\"\n").unwrap();
+        assert_eq!((old.version, old.white), (FormatVersion::One, White::Lamp));
+        let Process::Film(film) = old.process().unwrap() else { panic!("a film") };
+        assert_eq!(film.clone().as_in_the_talk(), film);
+        // It is written as version 2, and means the same.
+        let written = ProcessKeys::from_toml("look.toml", &old.to_toml()).unwrap();
+        assert_eq!(written.process().unwrap(), Process::Film(film));
+        assert_eq!(
+            message("version = 1\naim = \"sheet\"\nwhite = \"film\"\n"),
+            "look.toml:3: white is a key of version 2, found `version = 1`, expected `version = 2`"
+        );
+        for approach in ["first", "reinhard"] {
+            assert!(Process::from_toml("look.toml", &format!("version = 1\napproach = \"{approach}\"\n")).is_ok());
+        }
     }
 
     #[test]
@@ -235,21 +273,21 @@ mod tests {
         let value = "v\u{7}".repeat(9000);
         for text in [
             format!("version = '{}'\n", "v".repeat(9000)),
-            format!("version = 1\naim = {value}\n"),
-            format!("version = 1\n[first]\ncurve = '{}'\n", "v".repeat(9000)),
-            format!("version = 1\ncalibration = \"{}\"\n", "\\n".repeat(9000)),
+            format!("version = 2\naim = {value}\n"),
+            format!("version = 2\n[first]\ncurve = '{}'\n", "v".repeat(9000)),
+            format!("version = 2\ncalibration = \"{}\"\n", "\\n".repeat(9000)),
         ] {
             let sentence = message(&text);
             assert!(sentence.len() < 600 && !sentence.contains(char::is_control), "{sentence}");
         }
-        assert!(message(&"version = 1\n".repeat(1_000_000)).contains("12000000 bytes, expected at most 65536"));
+        assert!(message(&"version = 2\n".repeat(1_000_000)).contains("12000000 bytes, expected at most 65536"));
     }
 
     #[test]
     fn print_follows_the_camera() {
         let print = |text: &str| ProcessKeys::from_toml("look.toml", text).unwrap().print;
-        assert_eq!(print("version = 1\ncamera = \"fuji-velvia-50\"\n"), None);
-        assert_eq!(print("version = 1\n").as_deref(), Some("kodak-2383"));
-        assert_eq!(print("version = 1\nprint = \"none\"\n"), None);
+        assert_eq!(print("version = 2\ncamera = \"fuji-velvia-50\"\n"), None);
+        assert_eq!(print("version = 2\n").as_deref(), Some("kodak-2383"));
+        assert_eq!(print("version = 2\nprint = \"none\"\n"), None);
     }
 }

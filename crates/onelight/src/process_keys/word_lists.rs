@@ -1,9 +1,11 @@
 //! Keys of `look.toml` whose values are no single word of a list.
 
+use onelight_film::InterImage;
 use onelight_printing::Calibration;
 
 use crate::error::{Error, ErrorKind};
 use crate::message::cut;
+use crate::process::InterImageChoice;
 
 /// What `print` is for a word: the id of a film, or `None` for `none`.
 pub(super) fn parse_print(word: &str) -> Result<Option<String>, Error> {
@@ -25,6 +27,14 @@ pub(super) fn parse_calibration(word: &str) -> Result<Calibration, Error> {
         let expected = "exact, or 0 to 30 iterations".to_owned();
         ErrorKind::Word { what: "calibration", found: cut(word), expected }.into()
     })
+}
+
+/// What `interimage` is for a word: `film`, `none`, `negative`, `reversal`, or two numbers.
+pub(super) fn parse_inter_image(word: &str) -> Result<InterImageChoice, Error> {
+    match word {
+        "film" => Ok(InterImageChoice::Film),
+        _ => Ok(InterImageChoice::Fixed(InterImage::parse(word)?)),
+    }
 }
 
 /// `filters`: a list of numbers as words.
@@ -59,6 +69,24 @@ pub(super) mod calibration {
 
     pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Calibration, D::Error> {
         super::parse_calibration(&String::deserialize(deserializer)?).map_err(de::Error::custom)
+    }
+}
+
+/// `interimage`: `"film"`, `"none"`, `"negative"`, `"reversal"`, or two numbers as `"0.6,0.06"`.
+pub(super) mod inter_image {
+    use serde::{Deserialize, Deserializer, Serializer, de};
+
+    use crate::process::InterImageChoice;
+
+    pub(crate) fn serialize<S: Serializer>(choice: &InterImageChoice, serializer: S) -> Result<S::Ok, S::Error> {
+        match choice {
+            InterImageChoice::Film => serializer.serialize_str("film"),
+            InterImageChoice::Fixed(fixed) => serializer.collect_str(fixed),
+        }
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<InterImageChoice, D::Error> {
+        super::parse_inter_image(&String::deserialize(deserializer)?).map_err(de::Error::custom)
     }
 }
 

@@ -1,13 +1,12 @@
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 use onelight_film::{AmountCurve, DyeAmount, LogExposure, PerLayer};
-use onelight_lut::{Domain, Lut1d, Mix, SceneSampler};
+use onelight_lut::{Develop, Domain, Lut1d, Mix, SceneSampler};
 use rayon::prelude::*;
 
+use super::first_steps::CURVE_POINTS;
 use crate::error::{Error, ErrorKind};
 use crate::reference::Reference;
 
-/// Points of a curve: its error is below 0.002 dE.
-const CURVE_POINTS: usize = 1024;
 /// Colours that the affine map is fitted to, and their exposures in stops about mid grey.
 const COLOURS: usize = 1 << 13;
 const STOPS: (f64, f64) = (-10.0, 10.0);
@@ -16,7 +15,7 @@ const SEED: u64 = 0x666d_6178_6573_3031;
 /// The axes of a process: from exposure to the coordinates of the table, and from coordinates back to dye in the camera film.
 pub(super) struct Axes {
     /// From log2 exposure of each layer to the first coordinates.
-    pub(super) curves: Lut1d,
+    pub(super) develop: Develop,
     last: Last,
 }
 
@@ -48,11 +47,11 @@ impl Axes {
                     let (least, most) = amounts.to_array()[layer];
                     (camera.to_array()[layer].amount(LogExposure(h)).0 - least) / (most - least)
                 };
-                Ok(Self { curves: over_log2(camera, value)?, last: Last::Camera { amounts } })
+                Ok(Self { develop: film.develop_form(value)?, last: Last::Camera { amounts } })
             }
             Some(print) => {
                 let value = |layer: usize, h: f64| camera.to_array()[layer].amount(LogExposure(h)).0;
-                Ok(Self { curves: over_log2(camera, value)?, last: Last::print(film, print)? })
+                Ok(Self { develop: film.develop_form(value)?, last: Last::print(film, print)? })
             }
         }
     }
@@ -136,18 +135,6 @@ impl PrintAxis {
         // Rounding may lead a hair beyond the ends.
         found.map_or(if coordinate < 0.5 { self.from } else { self.to }, |h| h.0.clamp(self.from, self.to))
     }
-}
-
-/// Values over log2 of the exposure, each layer over its own curve's range.
-pub(crate) fn over_log2(camera: PerLayer<&AmountCurve>, value: impl Fn(usize, f64) -> f64) -> Result<Lut1d, Error> {
-    let ranges = camera.map(|curve| (curve.range().start().0, curve.range().end().0)).to_array();
-    let log2 = |log10: f64| (log10 * std::f64::consts::LOG2_10) as f32;
-    let domain = Domain::new(ranges.map(|r| log2(r.0)), ranges.map(|r| log2(r.1)))?;
-    let point = |i: usize| {
-        let t = i as f64 / (CURVE_POINTS - 1) as f64;
-        std::array::from_fn(|layer| value(layer, ranges[layer].0 + t * (ranges[layer].1 - ranges[layer].0)) as f32)
-    };
-    Ok(Lut1d::new(domain, (0..CURVE_POINTS).map(point).collect())?)
 }
 
 /// The affine map nearest to pairs of points, in least squares.

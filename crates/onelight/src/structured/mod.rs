@@ -1,11 +1,12 @@
 //! The structured form of a process: the film's own curves as the axes of a table.
 
 mod axes;
+mod first_steps;
 
 use nalgebra::{Matrix3, Vector3};
 use onelight_film::{DyeAmount, LogExposure, PerLayer};
 use onelight_lut::{
-    Decode, FitSample, FitSettings, Interpolation, Lut3d, PowerCoding, Rows, SceneSampler, StructuredLut,
+    Decode, Expose, FitSample, FitSettings, IDENTITY, Interpolation, Lut3d, PowerCoding, SceneSampler, StructuredLut,
     StructuredParts, fit,
 };
 use onelight_spectra::TransferCurve;
@@ -15,7 +16,8 @@ use crate::error::Error;
 use crate::reference::Reference;
 use crate::word::words;
 use axes::Axes;
-pub(crate) use axes::over_log2;
+pub(crate) use first_steps::over_log2;
+use first_steps::rows;
 
 /// Where the entries of a table come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -113,9 +115,8 @@ impl Reference {
             }
         };
         let parts = StructuredParts {
-            input: rows(&Matrix3::identity()),
-            exposure: rows(self.exposure_matrix().matrix()),
-            curves: axes.curves.clone(),
+            expose: Expose { input: IDENTITY, ..self.expose() },
+            develop: axes.develop.clone(),
             mix: axes.mix()?,
             table,
             decode,
@@ -127,7 +128,7 @@ impl Reference {
             Entries::Sampled => lut,
             Entries::Fitted => lut.with_table(encode.fitted(&lut, settings.interpolation)?),
         };
-        Ok(StructuredLut::new(StructuredParts { input: rows(self.to_srgb()), ..lut.parts().clone() })?)
+        Ok(StructuredLut::new(StructuredParts { expose: self.expose(), ..lut.parts().clone() })?)
     }
 
     /// From 10^-entry to linear RGB.
@@ -206,10 +207,6 @@ pub(crate) fn towards_the_edge(i: usize, rgb: [f64; 3]) -> [f64; 3] {
         _ => {}
     }
     moved
-}
-
-pub(crate) fn rows(matrix: &Matrix3<f64>) -> Rows {
-    std::array::from_fn(|i| std::array::from_fn(|k| matrix[(i, k)] as f32))
 }
 
 /// The transfer curve as the forms have it.

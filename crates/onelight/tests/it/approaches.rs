@@ -6,7 +6,8 @@ use onelight::{
     ColourSpaces, FirstControls, FirstProcess, Look, Process, ToneMapping, ToneProcess, WorkingSpace, stock,
 };
 
-use crate::{FILMS, chart, differ, film, process, stated};
+use crate::films::talk::{film, process};
+use crate::{FILMS, chart, differ, stated};
 
 fn look(process: impl Into<Process>) -> Look {
     process.into().look().unwrap()

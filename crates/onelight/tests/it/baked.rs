@@ -15,9 +15,10 @@ fn every_form_is_the_look() {
     let bevy = Recipe { shaper: ShaperChoice::Bevy, ..Recipe::cube(33) };
     let fitted = Recipe { entries: Entries::Fitted, storage: Storage::F16, ..Recipe::cube(17) };
     for (recipe, mean) in [
-        (Recipe::cube(33), 0.1),
+        // The inter-image effect bends a table between its nodes: 1.8 times the error of film by its sheet alone.
+        (Recipe::cube(33), 0.18),
         (bevy, 0.4),
-        (fitted, 0.3),
+        (fitted, 0.54),
         (Recipe { size: 12, ..Recipe::of(Form::Structured) }, 0.1),
         (Recipe::of(Form::Direct), 0.02),
     ] {

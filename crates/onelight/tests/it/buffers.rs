@@ -3,7 +3,7 @@
 use onelight::Reference;
 use onelight::spectra::BufferFormat;
 
-use crate::film;
+use crate::films::talk::film;
 
 /// All values of a small float, from the definition of its bits.
 fn floats(mantissa_bits: i32, bias: i32, exponents: i32) -> Vec<f64> {

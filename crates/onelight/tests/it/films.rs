@@ -73,3 +73,26 @@ pub(crate) fn films_once() -> Vec<(&'static str, Option<&'static str>)> {
     assert!(missed.is_none(), "nothing is printed on {missed:?}");
     pairs
 }
+
+/// The same as the talk has them: what was published of its figures, and what is computed a second time by hand, is of film by its
+/// sheet alone.
+pub(crate) mod talk {
+    use std::sync::Arc;
+
+    use onelight::{FilmProcess, Printing, Reference};
+
+    /// The usual process of a camera film.
+    pub(crate) fn process(camera: &str) -> FilmProcess {
+        super::process(camera).as_in_the_talk()
+    }
+
+    /// The same, compiled.
+    pub(crate) fn film(camera: &str) -> Arc<Reference> {
+        super::compiled(&process(camera))
+    }
+
+    /// The usual process of a negative with its printing changed.
+    pub(crate) fn printed(camera: &str, turn: impl FnOnce(&mut Printing)) -> FilmProcess {
+        super::printed(camera, turn).as_in_the_talk()
+    }
+}

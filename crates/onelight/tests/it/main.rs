@@ -20,7 +20,7 @@ use std::ops::RangeInclusive;
 use onelight::Reconstruction;
 use onelight::spectra::{Basis, DisplayDifference, RgbSpace, color_checker};
 
-pub(crate) use films::{compiled, film, films_once, printed, process};
+pub(crate) use films::{compiled, film, films_once, process};
 
 /// The films of the talk: K-negative, K-reversal (both), F-reversal, F-reversal 2.
 pub(crate) const FILMS: [&str; 5] =

@@ -10,8 +10,9 @@ use onelight::{
     Reconstruction, Stock, Tail, Wratten, stock,
 };
 
+use crate::films::talk::{film, printed, process};
 use crate::oracle::{Curve, Grey, Oracle, layers, planck, visible};
-use crate::{FILMS, chart, compiled, differ, film, printed, process, stated};
+use crate::{FILMS, chart, compiled, differ, stated};
 
 /// Largest difference between library and oracle, CIEDE2000: the oracle finds its greys by halving.
 const AGREE: f64 = 2e-3;
@@ -147,7 +148,7 @@ fn matching_constants() {
     let film = stock("kodak-5207").unwrap();
     let clear = film.d_min().unwrap().on(SpectralShape::VISIBLE).unwrap();
     let clear = layers(film.densitometry().density(&clear.transmittance()).map(|Density(d)| d));
-    let usual = crate::film("kodak-5207");
+    let usual = crate::films::talk::film("kodak-5207");
     let mut by_hand = Oracle::of(&process("kodak-5207"), &usual);
     by_hand.film_dye = scaled(&film, std::array::from_fn(|i| c[i] / (mid[i] - clear[i])));
     let by_hand = by_hand.compile().unwrap();
@@ -294,7 +295,7 @@ fn projectors() {
         assert!((0.1..0.6).contains(&xenon.0), "{xenon:?}");
     }
     let film = compiled(&FilmProcess { projector: Projector::TheatreUnadapted, ..process("kodak-5207") });
-    let usual = crate::film("kodak-5207");
+    let usual = crate::films::talk::film("kodak-5207");
     let (mean, _) = differ(&chart(-2..=2), |rgb| film.develop_linear(rgb), |rgb| usual.develop_linear(rgb));
     assert!((3.0..5.0).contains(&mean), "{mean}");
     let [r, g, b] = film.develop_linear([0.18; 3]);

@@ -3,8 +3,8 @@
 use anyhow::Result;
 use clap::ValueEnum;
 use indicatif::ProgressBar;
-use onelight::Look;
 use onelight::baked::{self, Baked, Recipe};
+use onelight::{Look, Process, Reference, WideGamut};
 use onelight_picture::Band;
 use rayon::prelude::*;
 
@@ -23,44 +23,79 @@ pub(crate) enum Form {
     Direct,
 }
 
+impl Form {
+    /// The usual form of a look: the direct form of a film, which is several hundred times faster than the film itself and cannot be
+    /// told from it; other looks as they are.
+    fn usual(look: &ChosenLook) -> Self {
+        match look.process {
+            Process::Film(_) => Self::Direct,
+            Process::First(_) | Process::Tone(_) => Self::Reference,
+        }
+    }
+}
+
 /// A film, ready for any number of pictures on any number of threads.
-pub(crate) enum Film {
+pub(crate) struct Film {
     /// The exact film in float64: the slowest, and what the others are measured against.
-    Exact(Box<Look>),
-    /// What was baked of it.
-    Baked(Box<Baked>),
+    exact: Look,
+    /// What was baked of it, and maps pictures in its place.
+    baked: Option<Baked>,
+    form: Form,
 }
 
 impl Film {
-    pub(crate) fn new(look: &ChosenLook, form: Form) -> Result<Self> {
-        let film = look.look()?;
-        let form = match form {
-            Form::Reference => return Ok(Self::Exact(Box::new(film))),
-            Form::Plain => baked::Form::Plain,
-            Form::Structured => baked::Form::Structured,
-            Form::Direct => baked::Form::Direct,
+    /// The look in this form, the usual one unless it is named.
+    pub(crate) fn new(look: &ChosenLook, form: Option<Form>) -> Result<Self> {
+        let exact = look.look()?;
+        let form = form.unwrap_or(Form::usual(look));
+        let baked = match form {
+            Form::Reference => None,
+            Form::Plain => Some(baked::Form::Plain),
+            Form::Structured => Some(baked::Form::Structured),
+            Form::Direct => Some(baked::Form::Direct),
         };
-        Ok(Self::Baked(Box::new(film.baked(&Recipe::of(form))?)))
+        let baked = baked.map(|form| exact.baked(&Recipe::of(form))).transpose()?;
+        Ok(Self { exact, baked, form })
+    }
+
+    /// The exact look.
+    pub(super) fn exact(&self) -> &Look {
+        &self.exact
+    }
+
+    /// What maps pictures in its place, if anything does.
+    pub(super) fn baked(&self) -> Option<&Baked> {
+        self.baked.as_ref()
+    }
+
+    /// The film, if it compresses light outside the sRGB primaries.
+    pub(super) fn compressing(&self) -> Option<&Reference> {
+        match &self.exact {
+            Look::Film(film) if film.exposure_matrix().gamut() == WideGamut::Compress => Some(film),
+            _ => None,
+        }
+    }
+
+    /// The word of its form on the command line.
+    pub(super) fn form_word(&self) -> String {
+        self.form.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
     }
 
     /// Its form, in words.
     pub(super) fn describe(&self) -> String {
-        match self {
-            Self::Exact(_) => "reference".to_owned(),
-            Self::Baked(baked) => baked.describe(),
-        }
+        self.baked.as_ref().map_or_else(|| "reference".to_owned(), Baked::describe)
     }
 
     /// Scene-linear to display-coded, in place; `progress` counts rows.
     pub(super) fn develop(&self, band: &mut Band, progress: &ProgressBar) {
-        match self {
-            Self::Exact(film) => band.rows_mut().for_each(|row| {
+        match &self.baked {
+            None => band.rows_mut().for_each(|row| {
                 for rgb in row.rgb {
-                    *rgb = film.develop(rgb.map(f64::from)).map(|v| v as f32);
+                    *rgb = self.exact.develop(rgb.map(f64::from)).map(|v| v as f32);
                 }
                 progress.inc(1);
             }),
-            Self::Baked(baked) => {
+            Some(baked) => {
                 baked.map_in_place(band.rgb_mut());
                 progress.inc(band.rows() as u64);
             }
@@ -69,9 +104,6 @@ impl Film {
 
     /// The brightest scene value that the form tells from brighter ones.
     pub(super) fn max(&self) -> Option<f64> {
-        match self {
-            Self::Exact(_) => None,
-            Self::Baked(baked) => baked.max(),
-        }
+        self.baked.as_ref().and_then(Baked::max)
     }
 }

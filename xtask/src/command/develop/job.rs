@@ -17,6 +17,7 @@ use super::exposure::{Exposure, Meter};
 use super::film::Film;
 use super::input::InputSettings;
 use super::light::Light;
+use super::sample::Sample;
 use crate::exposure::SceneExposure;
 use crate::look::ChosenLook;
 use crate::picture_file::{open_selected, write_exr_bands, write_png_bands};
@@ -52,6 +53,8 @@ pub(super) struct Developed {
     pub(super) ev: f64,
     /// What the user should know.
     pub(super) notes: Vec<String>,
+    /// What the form and the gamut do to this picture, in sentences with its own figures.
+    pub(super) sampled: Vec<String>,
     pub(super) busy: Busy,
 }
 
@@ -113,9 +116,11 @@ pub(super) fn develop_picture(settings: &Settings, order: &Order<'_>, progress: 
         }
     };
     let mut beyond = 0;
+    let mut sample = Sample::new(film, description.width, description.height);
     let develop = |band: &mut Band| {
         light.expose(band, ev, (*exposure != Exposure::Auto).then_some(&mut meter));
         beyond += film.max().map_or(0, |max| brighter(band, max));
+        sample.look_at(band);
         film.develop(band, progress);
     };
     let developed = Description { channels: light.coverage.channels(&description), ..description.clone() };
@@ -135,7 +140,8 @@ pub(super) fn develop_picture(settings: &Settings, order: &Order<'_>, progress: 
         Target::Png(_) => description.windows.display_size,
         Target::Exr => [description.width, description.height],
     };
-    Ok(Developed { size, ev, notes, busy })
+    let sampled = sample.notes(look)?;
+    Ok(Developed { size, ev, notes, sampled, busy })
 }
 
 /// Pixels with a channel over `max`.

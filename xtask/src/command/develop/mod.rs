@@ -6,6 +6,7 @@ mod input;
 mod job;
 mod light;
 mod paths;
+mod sample;
 mod sequence;
 
 use std::fmt::Write as _;
@@ -47,9 +48,9 @@ pub(crate) struct Arguments {
     /// Exposure in stops, or auto: the log average of the picture, without a black background, comes to 0.18
     #[arg(long, default_value = "0", value_name = "STOPS|auto", allow_hyphen_values = true)]
     ev: Exposure,
-    /// How the film is computed
-    #[arg(long, default_value = "reference")]
-    form: Form,
+    /// How the film is computed [default: direct; reference for approaches without film]
+    #[arg(long)]
+    form: Option<Form>,
     #[command(flatten)]
     picture: InputArguments,
     /// Bits of a PNG that goes out [default: 8]
@@ -132,8 +133,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let order = Order { input: &arguments.input, output: &arguments.output, digest: None };
     let developed = clock.time("develop", || develop_picture(&settings, &order, &progress));
     progress.finish_and_clear();
-    let Developed { size, ev, notes: more, busy } = developed?;
-    notes.extend(more);
+    let Developed { size, ev, notes: more, sampled, busy } = developed?;
+    notes.extend(more.into_iter().chain(sampled));
 
     let process = &settings.look.process;
     let mut text = String::new();

@@ -46,9 +46,17 @@ impl Sheet {
     }
 }
 
-/// The usual process of a camera film.
+/// The process of a camera film as the talk has it.
 fn usual(camera: &str) -> Result<ProcessKeys, Error> {
-    Ok(ProcessKeys::from(&Process::for_camera(camera)?))
+    let mut keys = ProcessKeys::from(&Process::for_camera(camera)?);
+    keys.set_talk();
+    Ok(keys)
+}
+
+/// The first approach with the same films: it has no layers, white or gamut of its own.
+fn first_approach(of: &ProcessKeys) -> ProcessKeys {
+    let ProcessKeys { inter_image, white, gamut, .. } = ProcessKeys::default();
+    ProcessKeys { approach: Approach::First, inter_image, white, gamut, ..of.clone() }
 }
 
 /// A film with its name in the talk.
@@ -73,7 +81,7 @@ const NAME_LETTERS: usize = 27;
 pub(super) fn sheets(own: Option<&Process>) -> Result<Vec<Sheet>, Error> {
     let mut films = films()?;
     films.extend(own.map(|own| (own.name().chars().take(NAME_LETTERS).collect(), ProcessKeys::from(own))));
-    let negative = ProcessKeys::default();
+    let negative = usual(onelight::DEFAULT_CAMERA)?;
     let (k_reversal, f_reversal) = (usual("kodak-ektachrome-100")?, usual("fuji-velvia-50")?);
     Ok(vec![
         exposures(&films),
@@ -124,9 +132,8 @@ fn approaches(films: &[Named]) -> Sheet {
                 those of the scene, because dyes and the light between them are missing.";
     let mut sheet = Sheet::new("approaches", "First approach against second", text, 2);
     for (name, process) in films {
-        let first = ProcessKeys { approach: Approach::First, ..process.clone() };
-        let plain = sheet.plain(format!("first: {name}"), &first);
-        sheet.turned(format!("second: {name}"), plain, |p| p.approach = Approach::Second);
+        let plain = sheet.plain(format!("first: {name}"), &first_approach(process));
+        sheet.turned(format!("second: {name}"), plain, |p| p.clone_from(process));
     }
     sheet
 }
@@ -135,8 +142,7 @@ fn by_hand(films: &[Named]) -> Sheet {
     let text = "What a hand can change in the first approach: one matrix after the tone curve, and the curve itself.";
     let mut sheet = Sheet::new("controls", "Controls of the first approach", text, 3);
     let Some((_, process)) = films.first() else { return sheet };
-    let plain =
-        sheet.plain("first approach, K-negative", &ProcessKeys { approach: Approach::First, ..process.clone() });
+    let plain = sheet.plain("first approach, K-negative", &first_approach(process));
     let mut control = |name: &str, first: FirstControls| sheet.turned(name, plain, |p| p.first = first);
     let usual = FirstControls::default;
     control("contrast 1.2", FirstControls { contrast: 1.2, ..usual() });
