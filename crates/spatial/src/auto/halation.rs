@@ -7,10 +7,8 @@ use crate::frame::Frame;
 use crate::halation::{Halation, HalationCells};
 use crate::planes::{Planes, believed};
 
-/// Cells in um, and those of pictures whose cells would be fewer than so many pixels wide.
+/// Cells in um. Coarser ones take the light of a bright pixel for its dark neighbour's and run halation needlessly.
 const CELL_UM: f64 = 60.0;
-const COARSE_CELL_UM: f64 = 120.0;
-const LEAST_PIXELS: f64 = 3.0;
 /// Differences below which halation is not seen.
 const LEAST_DIFFERENCE: f64 = 0.5;
 /// Exposures that halation raises by less than this share are not looked at: a hundredth of what the difference needs.
@@ -33,9 +31,7 @@ impl HalationProbe {
     /// # Errors
     /// As [`HalationCells::new`].
     pub fn new(halation: &Halation, frame: &Frame) -> Result<Self, Error> {
-        let pitch = frame.pitch().x_um().max(frame.pitch().y_um());
-        let cell = if CELL_UM / pitch < LEAST_PIXELS { COARSE_CELL_UM } else { CELL_UM };
-        let cells = HalationCells::with_cells(halation, frame, cell)?;
+        let cells = HalationCells::with_cells(halation, frame, CELL_UM)?;
         let [x, y] = cells.axes();
         Ok(Self { darkest: vec![[f32::INFINITY; 3]; x.count * y.count], cells, frame: *frame })
     }

@@ -38,7 +38,7 @@ fn sharpness_decision(film: &Film, frame: &Frame, exposures: &Planes) -> (Verdic
     (decision.verdict(), decision.to_string())
 }
 
-/// Differences that an effect makes, in rising order, on every fifth pixel.
+/// Differences that an effect makes, in rising order, on every eleventh pixel.
 fn differences(film: &Film, frame: &Frame, exposures: &Planes, stage: &SpatialStage) -> Vec<f64> {
     let develop = |e: [f32; 3]| film.develop(e);
     let halo = stage.halation_cells().unwrap().map(|mut cells| {
@@ -49,7 +49,7 @@ fn differences(film: &Film, frame: &Frame, exposures: &Planes, stage: &SpatialSt
     let without = SpatialStage::new(*frame).amounts(exposures, None, 0..SIZE[1], &develop).unwrap();
     let shown = |planes: &Planes, x: usize, y: usize| film.display_linear(planes.row(y).map(|l| f64::from(l[x])));
     let mut all: Vec<f64> = (0..SIZE[0] * SIZE[1])
-        .step_by(5)
+        .step_by(11)
         .map(|i| (i % SIZE[0], i / SIZE[0]))
         .map(|(x, y)| film.difference(shown(&with, x, y), shown(&without, x, y)))
         .collect();
