@@ -10,8 +10,9 @@ use crate::planes::Planes;
 use crate::sharpness::Sharpness;
 use crate::stage::SpatialStage;
 
-/// One block of so many pixels' side is looked at for each square of the first of these sides that gives so many blocks, or of the last.
+/// Side in pixels of a block.
 const BLOCK: usize = 8;
+/// Sides of the squares that a block stands for: the first of these that gives [`ENOUGH_BLOCKS`], or the last.
 const SQUARES: [usize; 3] = [64, 32, 16];
 const ENOUGH_BLOCKS: usize = 256;
 /// What is far away changes little and costs much: pixels about a block beyond those that light scatters from.
@@ -42,7 +43,7 @@ const LEAST_DIFFERENCE: f64 = 0.35;
 /// for rows in probe.exposure_rows() {
 ///     probe.add(&Planes::new(256, rows)?, &|e: [f32; 3]| e, &Screen)?;
 /// }
-/// assert_eq!(probe.finish().verdict(), Verdict::NotVisible, "a black frame");
+/// assert_eq!(probe.finish()?.verdict(), Verdict::NotVisible, "a black frame");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
@@ -50,6 +51,8 @@ pub struct SharpnessProbe {
     stage: SpatialStage,
     /// Side of the square that each block stands for.
     square: usize,
+    /// Rows of blocks that were looked at.
+    looked_at: usize,
     margin: [usize; 2],
     differences: Vec<f64>,
 }
@@ -62,21 +65,19 @@ impl SharpnessProbe {
         let margin = stage.scatter_reach().map(|reach| reach + MARGIN);
         let enough = |side: &&usize| frame.width().saturating_mul(frame.height()) / (*side * *side) >= ENOUGH_BLOCKS;
         let square = *SQUARES.iter().find(enough).unwrap_or(&SQUARES[2]);
-        Self { stage, square, margin, differences: Vec::new() }
+        Self { stage, square, looked_at: 0, margin, differences: Vec::new() }
     }
 
     /// The rows of exposures of each row of blocks, from top to bottom: what [`SharpnessProbe::add`] wants.
     #[must_use]
     pub fn exposure_rows(&self) -> Vec<Range<usize>> {
-        let frame = self.stage.frame();
-        let widened = |rows: Range<usize>| within(rows, self.margin[1], frame.height());
-        blocks(self.square, frame.offset()[1], frame.height()).into_iter().map(widened).collect()
+        self.rows_of_blocks().into_iter().map(|rows| self.widened(rows)).collect()
     }
 
-    /// Looks at one row of blocks.
+    /// Looks at the next row of blocks.
     ///
     /// # Errors
-    /// If these are not the exposures of a row of blocks.
+    /// If these are not its exposures.
     pub fn add(
         &mut self,
         exposures: &Planes,
@@ -84,13 +85,15 @@ impl SharpnessProbe {
         finish: &impl Finish,
     ) -> Result<(), Error> {
         let frame = *self.stage.frame();
-        let is_row = |rows: &Range<usize>| within(rows.clone(), self.margin[1], frame.height()) == exposures.rows();
-        let rows = blocks(self.square, frame.offset()[1], frame.height()).into_iter().find(is_row);
-        let Some(rows) = rows.filter(|_| exposures.width() == frame.width()) else {
-            let found = format!("rows {} to {}", exposures.rows().start, exposures.rows().end);
-            let expected = "those of one row of blocks".to_owned();
-            return Err(ErrorKind::Planes { what: "exposures to look at", found, expected }.into());
+        let rows = self.rows_of_blocks().get(self.looked_at).cloned();
+        let given = exposures.rows();
+        let is_next = |rows: &Range<usize>| self.widened(rows.clone()) == given && exposures.width() == frame.width();
+        let Some(rows) = rows.filter(is_next) else {
+            let found = format!("rows {} to {} of {} pixels", given.start, given.end, exposures.width());
+            let expected = format!("the next of the rows that `exposure_rows` lists, of {} pixels", frame.width());
+            return Err(ErrorKind::Planes { what: "exposures for sharpness", found, expected }.into());
         };
+        self.looked_at += 1;
         let columns = blocks(self.square, frame.offset()[0], frame.width());
         let look = |columns: &Range<usize>| self.block(exposures, columns.clone(), rows.clone(), development, finish);
         let found: Vec<Vec<f64>> = columns.par_iter().map(look).collect::<Result<_, Error>>()?;
@@ -98,14 +101,29 @@ impl SharpnessProbe {
         Ok(())
     }
 
-    /// The decision.
-    #[must_use]
-    pub fn finish(mut self) -> Decision {
+    /// The decision, once all rows of blocks were looked at.
+    ///
+    /// # Errors
+    /// If rows are missing.
+    pub fn finish(mut self) -> Result<Decision, Error> {
+        let all = self.rows_of_blocks().len();
+        if self.looked_at != all {
+            let (found, expected) = (format!("{} rows of blocks", self.looked_at), format!("all {all}"));
+            return Err(ErrorKind::Planes { what: "exposures for sharpness", found, expected }.into());
+        }
         self.differences.sort_by(f64::total_cmp);
         let rank = (0.99 * self.differences.len() as f64) as usize;
         let p99 = self.differences.get(rank).copied().unwrap_or(0.0);
         let measured = format!("{p99:.2} dE for 1 pixel in 100");
-        Decision::new(Effect::Sharpness, p99 >= LEAST_DIFFERENCE, &measured, self.stage.frame())
+        Ok(Decision::new(Effect::Sharpness, p99 >= LEAST_DIFFERENCE, &measured, self.stage.frame()))
+    }
+
+    fn rows_of_blocks(&self) -> Vec<Range<usize>> {
+        blocks(self.square, self.stage.frame().offset()[1], self.stage.frame().height())
+    }
+
+    fn widened(&self, rows: Range<usize>) -> Range<usize> {
+        within(rows, self.margin[1], self.stage.frame().height())
     }
 
     /// The differences of a block's pixels.

@@ -34,7 +34,7 @@ fn sharpness_decision(film: &Film, frame: &Frame, exposures: &Planes) -> (Verdic
         }
         probe.add(&band, &|e: [f32; 3]| film.develop(e), film).unwrap();
     }
-    let decision = probe.finish();
+    let decision = probe.finish().unwrap();
     (decision.verdict(), decision.to_string())
 }
 
@@ -139,6 +139,22 @@ fn small_pictures_have_a_sample_too() {
             exposures.row_mut(rows.start)[1][0] = 5.0;
             probe.add(&exposures, &|e: [f32; 3]| film.develop(e), &film).unwrap();
         }
-        assert!(probe.finish().to_string().starts_with("sharpness: "));
+        assert!(probe.finish().unwrap().to_string().starts_with("sharpness: "));
     }
+}
+
+#[test]
+fn a_picture_that_was_not_looked_at_has_no_decision() {
+    let film = Film::new("kodak-5219");
+    let frame = Frame::new(SIZE, FilmFormat::Super35.pitch(2048, 1.0).unwrap()).unwrap();
+    let mut probe = SharpnessProbe::new(&Sharpness::of_stock(&film.stock).unwrap(), &frame);
+    let rows = probe.exposure_rows();
+    let develop = |e: [f32; 3]| film.develop(e);
+    let skipped = Planes::new(SIZE[0], rows[1].clone()).unwrap();
+    let message = probe.add(&skipped, &develop, &film).unwrap_err().to_string();
+    assert!(message.starts_with("exposures for sharpness: found rows ") && message.contains("the next of the rows"));
+    probe.add(&Planes::new(SIZE[0], rows[0].clone()).unwrap(), &develop, &film).unwrap();
+    assert!(probe.finish().unwrap_err().to_string().contains("found 1 rows of blocks, expected all "));
+    let halation = HalationProbe::new(&halation(Antihalation::None), &frame).unwrap();
+    assert!(halation.finish(&develop, &film).is_err());
 }
