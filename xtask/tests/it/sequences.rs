@@ -29,10 +29,13 @@ fn with_frames(count: usize, size: [usize; 2]) -> tempfile::TempDir {
     folder
 }
 
-/// The whole job, with more options: through the exact film, which takes long enough for a frame to be stopped in.
+/// Through the exact film: long enough for a frame to be stopped in.
+const SLOW: [&str; 2] = ["--form", "reference"];
+
+/// The whole job, with more options.
 fn job(folder: &Path, output: &str, more: &[&str]) -> Command {
     let mut command = program();
-    command.args(["develop", "in/shot.####.exr", output, "--form", "reference"]).args(more);
+    command.args(["develop", "in/shot.####.exr", output]).args(more);
     command.current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped());
     command
 }
@@ -96,16 +99,20 @@ fn a_killed_job_goes_on_to_the_same_files() {
     let folder = folder.path();
     for extension in ["png", "exr"] {
         let [out, other] = ["out", "other"].map(|name| format!("{name}/shot.####.{extension}"));
-        let undisturbed = job(folder, &other, &["--json"]).env("RAYON_NUM_THREADS", "4").output().unwrap();
+        let undisturbed =
+            job(folder, &other, &[&SLOW[..], &["--json"]].concat()).env("RAYON_NUM_THREADS", "4").output().unwrap();
         assert_eq!(counts(&undisturbed), [60, 0, 0]);
 
-        let mut child = job(folder, &out, &[]).spawn().unwrap();
+        let mut child = job(folder, &out, &SLOW).spawn().unwrap();
         stop_amid(&mut child, &folder.join("out"), "-KILL");
         assert_eq!(child.wait().unwrap().code(), None);
         let left = files(&folder.join("out"));
         assert!(left.len() < 60 && left.keys().any(|name| name.ends_with(".part")), "{:?}", left.keys());
 
-        let again = job(folder, &out, &["--frames", "1-60", "--json"]).env("RAYON_NUM_THREADS", "3").output().unwrap();
+        let again = job(folder, &out, &[&SLOW[..], &["--frames", "1-60", "--json"]].concat())
+            .env("RAYON_NUM_THREADS", "3")
+            .output()
+            .unwrap();
         let [developed, already_done, failed] = counts(&again);
         assert!(again.status.success() && already_done >= 10 && developed + already_done == 60 && failed == 0);
         assert!(same(&files(&folder.join("out")), &files(&folder.join("other"))));
@@ -119,7 +126,7 @@ fn a_job_that_is_stopped_leaves_complete_files() {
     let folder = with_frames(60, [64, 36]);
     let folder = folder.path();
     for (name, status) in [("-INT", 130), ("-TERM", 143)] {
-        let mut child = job(folder, "out/shot.####.png", &[]).spawn().unwrap();
+        let mut child = job(folder, "out/shot.####.png", &SLOW).spawn().unwrap();
         stop_amid(&mut child, &folder.join("out"), name);
         let output = child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(status), "{}", sentence(&output));
