@@ -52,7 +52,7 @@ words! {
         Target::Ffmpeg = "ffmpeg" "ffmpeg: a .cube for display-coded pictures",
         Target::Darktable = "darktable" "darktable: a .cube for its module lut 3D",
         Target::Rawtherapee = "rawtherapee" "RawTherapee: a Hald CLUT for its film simulation",
-        Target::Bevy = "bevy" "Bevy: a KTX2 texture in place of its tone mapping's",
+        Target::Bevy = "bevy" "Bevy: a KTX2 texture in place of its Blender Filmic",
         Target::Unreal = "unreal" "Unreal: a strip of 16 tiles",
         Target::Unity = "unity" "Unity: a strip of 32 tiles",
         Target::Godot = "godot" "Godot: a strip of 64 tiles",
@@ -90,7 +90,7 @@ impl Target {
             Self::Ocio => vec![table(
                 Recipe::of(Form::Structured),
                 FileFormat::Clf,
-                "oiiotool --colorconfig look.ocio IN --ociodisplay default default -o OUT; or a FileTransform from scene-linear light",
+                "oiiotool --colorconfig look.ocio IN --ociodisplay sRGB VIEW -o OUT; or a FileTransform from scene-linear light",
             )],
             Self::Blender => vec![table(
                 Recipe::of(Form::Structured),
@@ -120,7 +120,7 @@ impl Target {
             Self::Bevy => vec![table(
                 Recipe::taking(ShaperChoice::Bevy),
                 FileFormat::Ktx2,
-                "TonemappingLuts, in place of tony_mc_mapface, with Tonemapping::TonyMcMapface's shader set to this range",
+                "TonemappingLuts::blender_filmic, with Tonemapping::BlenderFilmic",
             )],
             Self::Unreal => vec![table(
                 strip(FileFormat::Unreal),
