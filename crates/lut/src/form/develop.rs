@@ -1,8 +1,8 @@
 use fearless_simd::Level;
 
-use crate::error::Error;
+use crate::error::{Error, ErrorKind};
 use crate::kernel::block::Block;
-use crate::kernel::coupling::couple;
+use crate::kernel::coupling::{CouplingCurves, MAX_PIECES};
 use crate::kernel::curves::Curves;
 use crate::lut1d::Lut1d;
 use crate::number::Number;
@@ -36,10 +36,15 @@ pub struct Develop {
 /// of [`Develop`] are then read at `h'`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coupling {
-    /// A curve over log2 exposure for each layer: what acts.
+    /// A curve over log2 exposure for each layer: what acts. At most [`Coupling::MAX_SIZE`] entries.
     pub curves: Lut1d,
     /// In log2 exposure for a unit of `q`. Where rows sum to 0 and layers are alike, nothing moves.
     pub matrix: Rows,
+}
+
+impl Coupling {
+    /// The most entries of its curves.
+    pub const MAX_SIZE: usize = MAX_PIECES + 1;
 }
 
 impl Develop {
@@ -58,27 +63,39 @@ impl Develop {
     }
 
     pub(crate) fn check(&self) -> Result<(), Error> {
-        self.coupling.as_ref().map_or(Ok(()), |coupling| check_rows("coupling matrix", &coupling.matrix))
+        let Some(coupling) = &self.coupling else { return Ok(()) };
+        let found = coupling.curves.size();
+        if found > Coupling::MAX_SIZE {
+            return Err(ErrorKind::Size {
+                what: "curves of a coupling",
+                found,
+                min: Lut1d::MIN_SIZE,
+                max: Coupling::MAX_SIZE,
+            }
+            .into());
+        }
+        check_rows("coupling matrix", &coupling.matrix)
     }
 }
 
 /// The curves of a [`Develop`] as the loops read them.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct DevelopCurves {
-    coupling: Option<(Curves, Rows)>,
+    coupling: Option<CouplingCurves>,
     curves: Curves,
 }
 
 impl DevelopCurves {
     pub(crate) fn new(develop: &Develop) -> Self {
-        let coupling = develop.coupling.as_ref().map(|coupling| (Curves::new(&coupling.curves), coupling.matrix));
+        let coupling = develop.coupling.as_ref();
+        let coupling = coupling.map(|coupling| CouplingCurves::new(&coupling.curves, coupling.matrix));
         Self { coupling, curves: Curves::new(&develop.curves) }
     }
 
     /// [`Develop::apply`] of the block's colours.
     pub(crate) fn apply(&self, level: Level, block: &mut Block, count: usize) {
-        if let Some((curves, matrix)) = &self.coupling {
-            couple(level, curves, matrix, block, count);
+        if let Some(coupling) = &self.coupling {
+            coupling.apply(level, block, count);
         }
         self.curves.apply(level, block, count);
     }

@@ -26,16 +26,13 @@ pub(crate) struct Scratch {
     pub(super) index: [Plane<u32>; 4],
     /// Weights of vertices, or fractions of pieces.
     pub(super) weight: [Plane; 4],
-    /// Both ends of a piece of a curve.
-    pub(super) piece: Plane<[f32; 2]>,
-    /// Values of curves beside the colours that they were read at.
-    pub(super) value: [Plane; 3],
+    /// Both numbers of a piece of a curve.
+    pub(super) piece: [Plane<[f32; 2]>; 3],
 }
 
 impl Block {
     pub(crate) fn new() -> Self {
-        let zero = [0.0; BLOCK];
-        let scratch = Scratch { index: [[0; BLOCK]; 4], weight: [zero; 4], piece: [[0.0; 2]; BLOCK], value: [zero; 3] };
+        let scratch = Scratch { index: [[0; BLOCK]; 4], weight: [[0.0; BLOCK]; 4], piece: [[[0.0; 2]; BLOCK]; 3] };
         Self { rgb: [[0.0; BLOCK]; 3], alpha: [1.0; BLOCK], scratch }
     }
 }

@@ -32,31 +32,16 @@ impl Curves {
 
     /// Reads each channel's curve at that channel's plane, which holds no NaN; values take the place of what they are read at.
     pub(crate) fn apply(&self, level: Level, Block { rgb, scratch, .. }: &mut Block, count: usize) {
-        let Scratch { index: [index, ..], weight: [fraction, ..], piece, .. } = scratch;
         for (curve, plane) in self.0.iter().zip(rgb) {
-            dispatch!(level, simd => {
-                curve.find(simd, plane, (&mut *index, &mut *fraction), count);
-                curve.read(simd, (&*index, &*fraction), piece, plane, count);
-            });
-        }
-    }
-
-    /// As [`Curves::apply`], with the values beside the colours, in the scratch.
-    pub(super) fn read_beside(&self, level: Level, Block { rgb, scratch, .. }: &mut Block, count: usize) {
-        let Scratch { index: [index, ..], weight: [fraction, ..], piece, value, .. } = scratch;
-        for ((curve, plane), value) in self.0.iter().zip(rgb).zip(value) {
-            dispatch!(level, simd => {
-                curve.find(simd, plane, (&mut *index, &mut *fraction), count);
-                curve.read(simd, (&*index, &*fraction), piece, value, count);
-            });
+            dispatch!(level, simd => curve.apply(simd, plane, scratch, count));
         }
     }
 }
 
 impl ChannelCurve {
-    /// The piece that each number of a plane lies in, and where in it.
     #[inline(always)]
-    fn find<S: Simd>(&self, simd: S, plane: &Plane, (index, fraction): (&mut Plane<u32>, &mut Plane), count: usize) {
+    fn apply<S: Simd>(&self, simd: S, plane: &mut Plane, scratch: &mut Scratch, count: usize) {
+        let Scratch { index: [index, ..], weight: [fraction, ..], piece: [piece, ..] } = scratch;
         let last = S::f32s::splat(simd, self.end - 1.0);
         for i in vector_starts::<S>(count) {
             let position = ((load(simd, plane, i) - self.start) * self.scale).max(0.0).min(self.end);
@@ -64,18 +49,6 @@ impl ChannelCurve {
             store::<S>(position - start, fraction, i);
             store_indices(simd, start.to_int(), index, i);
         }
-    }
-
-    /// The values at these places of these pieces.
-    #[inline(always)]
-    fn read<S: Simd>(
-        &self,
-        simd: S,
-        (index, fraction): (&Plane<u32>, &Plane),
-        piece: &mut Plane<[f32; 2]>,
-        to: &mut Plane,
-        count: usize,
-    ) {
         let covered = count.next_multiple_of(S::f32s::LEN).min(BLOCK);
         for (piece, index) in piece.iter_mut().zip(&index[..covered]) {
             *piece = self.pieces.get(*index as usize).copied().unwrap_or_default();
@@ -86,7 +59,7 @@ impl ChannelCurve {
             let pairs = S::f32s::from_slice(simd, &ends[low..high]);
             let (near, far) = pairs.deinterleave(S::f32s::from_slice(simd, &ends[high..high + S::f32s::LEN]));
             let t = load(simd, fraction, i);
-            store::<S>(far.mul_add(t, near * (S::f32s::splat(simd, 1.0) - t)), to, i);
+            store::<S>(far.mul_add(t, near * (S::f32s::splat(simd, 1.0) - t)), plane, i);
         }
     }
 }

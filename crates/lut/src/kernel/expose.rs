@@ -20,14 +20,12 @@ fn expose_with<S: Simd>(simd: S, Expose { input, matrix, negative }: &Expose, bl
     let floor = S::f32s::splat(simd, LOG_FLOOR);
     for i in vector_starts::<S>(count) {
         let mut light = load_rgb(simd, &block.rgb, i);
-        if !is_identity || compresses {
+        if !is_identity {
             light = map_channels(
                 light,
                 #[inline(always)]
                 |v| zero_for_nan(simd, v).max(-SCENE_MAX).min(SCENE_MAX),
             );
-        }
-        if !is_identity {
             light = times(simd, input, [0.0; 3], light);
         }
         let positive = map_channels(
@@ -62,8 +60,14 @@ fn expose_with<S: Simd>(simd: S, Expose { input, matrix, negative }: &Expose, bl
 }
 
 #[inline(always)]
-fn any_below_zero<S: Simd>(simd: S, [red, green, blue]: [S::f32s; 3]) -> bool {
-    red.min(green).min(blue).simd_lt(S::f32s::splat(simd, 0.0)).any_true()
+fn any_below_zero<S: Simd>(simd: S, light: [S::f32s; 3]) -> bool {
+    let zero = S::f32s::splat(simd, 0.0);
+    let [red, green, blue] = map_channels(
+        light,
+        #[inline(always)]
+        |v: S::f32s| v.simd_lt(zero),
+    );
+    (red | green | blue).any_true()
 }
 
 /// A matrix and an offset.

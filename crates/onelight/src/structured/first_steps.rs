@@ -12,7 +12,7 @@ use crate::reference::Reference;
 /// Points of a curve: its error is below 0.002 dE.
 pub(super) const CURVE_POINTS: usize = 1024;
 /// Points of a curve of developed density: its error is below 0.002 dE.
-const COUPLING_POINTS: usize = 256;
+const COUPLING_POINTS: usize = 257;
 
 impl Reference {
     /// From scene light in the input's primaries to log2 exposure.
