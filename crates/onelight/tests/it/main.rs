@@ -14,6 +14,7 @@ mod properties;
 mod stages;
 mod structured;
 mod switches;
+mod wide_gamut;
 
 use std::ops::RangeInclusive;
 
