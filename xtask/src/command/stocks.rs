@@ -1,4 +1,5 @@
 mod contact_sheet;
+mod pairs;
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -7,7 +8,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use clap::Args;
 use onelight::film::{ExposureAxis, Origin, PerLayer};
-use onelight::{FilmProcess, Image, Printing, Process, Stock, StockKind, stock, stock_ids};
+use onelight::{Image, Stock, StockKind, stock, stock_ids};
 use serde_json::{Value, json};
 
 use crate::atomic_file::write_atomically;
@@ -34,6 +35,9 @@ pub(crate) struct Arguments {
     /// that is printed on behind a usual film
     #[arg(long, value_name = "EXR", conflicts_with_all = ["id", "check", "fidelity"])]
     sheet: Option<PathBuf>,
+    /// Say of every sensible pair of the chosen stocks how far its structured table lies from the exact film: some minutes for all
+    #[arg(long, conflicts_with_all = ["id", "check", "fidelity", "sheet"])]
+    certify: bool,
     /// Folder for the plot of one stock, or for the sheet [default: target/onelight/stocks]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -42,6 +46,8 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
+/// Colours drawn for the certificate of a pair.
+const COLOURS: usize = 1 << 12;
 /// What `--kind` takes: the kinds of stock, and what their pictures are made of.
 const KINDS: [&str; 8] =
     ["negative", "reversal", "instant", "print", "paper", "reversal-print", "colour", "black-and-white"];
@@ -52,6 +58,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         None if arguments.check => check()?,
         None if arguments.fidelity => return fidelity(arguments),
         None if arguments.sheet.is_some() => shown(arguments)?,
+        None if arguments.certify => pairs::certificates(&pairs::sensible(&chosen(arguments)?)?, COLOURS)?,
         None => all(&chosen(arguments)?),
     };
     Ok(Report { text, json, as_json: arguments.json })
@@ -214,35 +221,13 @@ fn one(id: &str, out: Option<&Path>) -> Result<(String, Value)> {
 /// Reads all stocks and compiles every sensible process.
 fn check() -> Result<(String, Value)> {
     let stocks: Vec<Stock> = stock_ids().map(stock).collect::<Result<_, _>>()?;
-    let mut faults = Vec::new();
-    let mut count = 0;
-    let mut compile = |camera: &str, print: Option<&str>| {
-        count += 1;
-        let (camera, print) = (camera.into(), print.map(Printing::on));
-        if let Err(error) = Process::from(FilmProcess { camera, print, ..Default::default() }).compile() {
-            faults.push(error.to_string());
-        }
-    };
-    for camera in &stocks {
-        if matches!(camera.kind(), StockKind::Reversal | StockKind::Instant) {
-            compile(camera.id(), None);
-        }
-        for print in stocks.iter().filter(|print| camera.is_printed_on(print)) {
-            compile(camera.id(), Some(print.id()));
-        }
-        for variant in camera.variants().filter(|_| camera.kind().is_camera_film()) {
-            let process = FilmProcess::for_camera(&format!("{}@{variant}", camera.id()))?;
-            compile(process.camera.id(), process.print.as_ref().map(|print| print.film.id()));
-        }
-        for variant in camera.variants().filter(|_| !camera.kind().is_camera_film()) {
-            let negative = stocks.iter().find(|negative| negative.is_printed_on(camera));
-            compile(negative.map_or("", Stock::id), Some(&format!("{}@{variant}", camera.id())));
-        }
-    }
+    let looks = pairs::sensible(&stocks)?;
+    let faults: Vec<String> =
+        looks.iter().filter_map(|look| look.compile().err()).map(|error| error.to_string()).collect();
+    let (stocks, count) = (stocks.len(), looks.len());
     if let Some(first) = faults.first() {
         bail!("{} of {count} processes do not compile; the first: {first}", faults.len());
     }
-    let stocks = stocks.len();
     Ok((format!("{stocks} stocks read, {count} processes compiled\n"), json!({ "stocks": stocks, "processes": count })))
 }
 

@@ -1,0 +1,121 @@
+//! Every camera film on everything that it is printed on.
+
+use std::fmt::Write as _;
+
+use anyhow::Result;
+use onelight::baked::{Form, Recipe};
+use onelight::certify::Certifier;
+use onelight::lut::{Certificate, SamplingLaw, Search, Storage};
+use onelight::{FilmProcess, Printing, Process, Stock, StockKind, WorkingSpace, stock, stock_ids};
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+use crate::progress::bar;
+
+/// Every camera film as it is shown itself or on everything that it is printed on, if one of the two is among `chosen`; and every
+/// variant of those once.
+pub(super) fn sensible(chosen: &[Stock]) -> Result<Vec<FilmProcess>> {
+    let all: Vec<Stock> = stock_ids().map(stock).collect::<Result<_, _>>()?;
+    let is_chosen = |stock: &Stock| chosen.iter().any(|chosen| chosen.id() == stock.id());
+    let look = |camera: &str, print: Option<&str>| FilmProcess {
+        camera: camera.into(),
+        print: print.map(Printing::on),
+        ..FilmProcess::default()
+    };
+    let mut looks = Vec::new();
+    for camera in all.iter().filter(|stock| stock.kind().is_camera_film()) {
+        if is_chosen(camera) && matches!(camera.kind(), StockKind::Reversal | StockKind::Instant) {
+            looks.push(look(camera.id(), None));
+        }
+        let prints = all.iter().filter(|print| camera.is_printed_on(print));
+        let prints = prints.filter(|print| is_chosen(camera) || is_chosen(print));
+        looks.extend(prints.map(|print| look(camera.id(), Some(print.id()))));
+    }
+    for stock in chosen {
+        for variant in stock.variants().map(|variant| format!("{}@{variant}", stock.id())) {
+            if stock.kind().is_camera_film() {
+                looks.push(FilmProcess::for_camera(&variant)?);
+            } else if let Some(camera) = all.iter().find(|camera| camera.is_printed_on(stock)) {
+                looks.push(look(camera.id(), Some(&variant)));
+            }
+        }
+    }
+    Ok(looks)
+}
+
+/// The structured table of each look, 32^3 in half floats, against the exact film on so many colours.
+pub(super) fn certificates(looks: &[FilmProcess], colours: usize) -> Result<(String, Value)> {
+    let recipe = Recipe { storage: Storage::F16, ..Recipe::of(Form::Structured) };
+    let law = SamplingLaw { count: colours, ..SamplingLaw::default() };
+    let progress = bar("certifying", looks.len() as u64);
+    let certify = |look: &FilmProcess| -> Result<(String, Certificate)> {
+        let film = Process::from(look.clone()).look()?;
+        let measure = Certifier::new(&film)?;
+        let samples = measure.samples(&law, WorkingSpace::Srgb)?;
+        let table = film.baked(&recipe)?;
+        let found = measure.certify(&samples, |rgb| table.apply(rgb), Search::SamplesOnly)?;
+        progress.inc(1);
+        Ok((film.name().to_owned(), found))
+    };
+    let found: Vec<(String, Certificate)> = looks.par_iter().map(certify).collect::<Result<_>>()?;
+    progress.finish_and_clear();
+    let mut text = format!(
+        "CIEDE2000 of the structured table, 32^3 in half floats, from the exact film: {colours} sRGB colours from -10 to +10 stops\n\
+         | films | mean | 99 % below | largest |\n|---|---|---|---|\n"
+    );
+    for (name, Certificate { overall, max_found, .. }) in &found {
+        let _ = writeln!(
+            text,
+            "| {} | {:.3} | {:.3} | {max_found:.2} |",
+            name.replace('_', " on "),
+            overall.mean,
+            overall.p99
+        );
+    }
+    let largest = found.iter().map(|(_, certificate)| certificate.max_found).fold(0.0, f64::max);
+    let _ = writeln!(text, "{} looks, none further off than {largest:.2}", found.len());
+    let rows = found.iter().map(|(name, certificate)| json!({ "films": name, "certificate": certificate }));
+    Ok((text, rows.collect()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One look of each kind that prints and each that is shown itself, in colour and in black and white.
+    const TWELVE: [(&str, Option<&str>); 12] = [
+        ("kodak-5206", Some("kodak-2383")),
+        ("kodak-portra-800@push-1", Some("kodak-5384")),
+        ("kodak-portra-400", Some("kodak-endura-premier")),
+        ("fuji-pro-400h", Some("fuji-crystal-archive-dpii")),
+        ("agfa-vista-100", Some("fuji-fujiflex")),
+        ("fuji-velvia-50", None),
+        ("fuji-velvia-50", Some("kodak-radiance-iii")),
+        ("kodak-ektachrome-100", Some("ilford-ilfochrome-micrographic")),
+        ("fuji-fp-100c", None),
+        ("fuji-instax", None),
+        ("kodak-5222", Some("kodak-2302")),
+        ("kodak-tri-x-400@9-min", Some("kodak-polymax-fine-art@grade-3")),
+    ];
+
+    #[test]
+    fn twelve_looks_have_tables_as_near_as_those_of_negatives_on_print_film() {
+        let looks = TWELVE.map(|(camera, print)| FilmProcess {
+            camera: camera.into(),
+            print: print.map(Printing::on),
+            ..FilmProcess::default()
+        });
+        let (text, rows) = certificates(&looks, 1 << 9).unwrap();
+        for row in rows.as_array().unwrap() {
+            let mean = row["certificate"]["overall"]["mean"].as_f64().unwrap();
+            assert!(mean < 0.15, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_chosen_paper_is_seen_behind_every_negative() {
+        let paper = [stock("kodak-endura-premier").unwrap()];
+        let negatives = stock_ids().map(|id| stock(id).unwrap()).filter(|film| film.is_printed_on(&paper[0])).count();
+        assert_eq!(sensible(&paper).unwrap().len(), negatives);
+    }
+}
