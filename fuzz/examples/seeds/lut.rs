@@ -140,7 +140,8 @@ pub(super) fn spi3d() -> Result<Vec<Seed>, Fault> {
 
 pub(super) fn direct_json() -> Result<Vec<Seed>, Fault> {
     use onelight::lut::{
-        Develop, DirectForm, DirectParts, DirectPrint, ExponentialSum, ExponentialTerm, Expose, IDENTITY, PowerCoding,
+        Coupling, Develop, DirectForm, DirectParts, DirectPrint, ExponentialSum, ExponentialTerm, Expose, IDENTITY,
+        NegativeLight, PowerCoding,
     };
 
     let curves = || Lut1d::sample(4, [-8.0, 4.0], |h| 0.1 * (8.0 + h));
@@ -150,18 +151,29 @@ pub(super) fn direct_json() -> Result<Vec<Seed>, Fault> {
     };
     let print = || -> Result<_, Fault> { Ok(DirectPrint { exposure: sum(1)?, curves: curves()? }) };
     let file = |print: Option<DirectPrint>, coding: PowerCoding| -> Result<Vec<u8>, Fault> {
-        let develop = Develop { coupling: None, curves: curves()? };
-        let parts = DirectParts { expose: Expose::by(IDENTITY), develop, print, projection: sum(2)?, coding };
+        // What only version 2 can say is beside a print.
+        let matrix = [[0.5, -0.5, 0.0], [-0.5, 1.0, -0.5], [0.0, -0.5, 0.5]];
+        let coupling = print.as_ref().map(|_| curves().map(|curves| Coupling { curves, matrix })).transpose()?;
+        let negative = if print.is_some() { NegativeLight::Compress } else { NegativeLight::Clip };
+        let develop = Develop { coupling, curves: curves()? };
+        let expose = Expose { negative, ..Expose::by(IDENTITY) };
+        let parts = DirectParts { expose, develop, print, projection: sum(2)?, coding };
         let mut file = Vec::new();
         direct_json::write(&mut file, &DirectForm::new(parts)?, ["a look"])?;
         Ok(file)
     };
     let whole = file(Some(print()?), PowerCoding::new(2.4, 0.055)?)?;
     let text = String::from_utf8(whole.clone())?;
+    let linear = file(None, PowerCoding::LINEAR)?;
+    let old = String::from_utf8(linear.clone())?
+        .replace("\"version\": 2", "\"version\": 1")
+        .replace(" \"negative_light\": \"clip\",\n", "")
+        .replace(" \"coupling\": null,\n", "");
     Ok(vec![
         ("print.json".into(), whole),
-        ("linear.json".into(), file(None, PowerCoding::LINEAR)?),
-        ("refused-version.json".into(), text.replace("\"version\": 1", "\"version\": 2").into()),
+        ("linear.json".into(), linear),
+        ("version-1.json".into(), old.into()),
+        ("refused-version.json".into(), text.replace("\"version\": 2", "\"version\": 3").into()),
         ("refused-number.json".into(), text.replace("0.25", "1e39").into()),
         ("refused-shape.json".into(), text.replace("[1.0, 0.0, 0.0]", "[1.0, 0.0]").into()),
     ])

@@ -1,7 +1,7 @@
 //! Looks with every key and word, stocks of every kind with every key.
 
-use onelight::film::{DyeModel, Matching, Tail};
-use onelight::printing::{Aim, HeatGlass, Infrared, PrinterLight, Projector};
+use onelight::film::{DyeModel, Matching, PrintCurves, Tail, WideGamut};
+use onelight::printing::{Aim, HeatGlass, Infrared, PrinterLight, Projector, White};
 use onelight::spectra::{Reconstruction, TransferCurve};
 use onelight::{Approach, Process, Word, WorkingSpace};
 
@@ -23,29 +23,38 @@ pub(super) fn looks() -> Vec<Seed> {
                 .to_vec(),
         ),
         ("reversal.toml".to_owned(), b"version = 1\ncamera = \"fuji-velvia-50\"\nprint = \"none\"\n".to_vec()),
-        ("refused-version.toml".to_owned(), b"version = 2\n".to_vec()),
+        (
+            "film.toml".to_owned(),
+            b"version = 2\ninterimage = \"0.5,0.1\"\nwhite = \"lamp\"\ngamut = \"clip\"\nprint_curves = \"principal\"\n"
+                .to_vec(),
+        ),
+        ("refused-version.toml".to_owned(), b"version = 3\n".to_vec()),
+        ("refused-newer-key.toml".to_owned(), b"version = 1\nwhite = \"film\"\n".to_vec()),
         ("refused-contradiction.toml".to_owned(), b"version = 1\napproach = \"clip\"\naim = \"sheet\"\n".to_vec()),
     ];
-    fn words<T: Word>(seeds: &mut Vec<Seed>) {
+    fn words<T: Word>(seeds: &mut Vec<Seed>, version: u8) {
         seeds.extend(T::ALL.iter().map(|(_, word, _)| {
-            (format!("{}-{word}.toml", T::KEY), format!("version = 1\n{} = \"{word}\"\n", T::KEY).into_bytes())
+            (format!("{}-{word}.toml", T::KEY), format!("version = {version}\n{} = \"{word}\"\n", T::KEY).into_bytes())
         }));
     }
-    words::<Approach>(&mut seeds);
-    words::<Aim>(&mut seeds);
-    words::<DyeModel>(&mut seeds);
-    words::<Matching>(&mut seeds);
+    words::<Approach>(&mut seeds, 1);
+    words::<Aim>(&mut seeds, 1);
+    words::<DyeModel>(&mut seeds, 1);
+    words::<Matching>(&mut seeds, 1);
     // Only sheets with an axis in lux s can be absolute.
     if let Some((_, text)) = seeds.iter_mut().find(|(name, _)| name == "matching-absolute.toml") {
         text.extend(b"camera = \"kodak-5219\"\n");
     }
-    words::<Reconstruction>(&mut seeds);
-    words::<PrinterLight>(&mut seeds);
-    words::<Infrared>(&mut seeds);
-    words::<HeatGlass>(&mut seeds);
-    words::<Tail>(&mut seeds);
-    words::<Projector>(&mut seeds);
-    words::<TransferCurve>(&mut seeds);
+    words::<Reconstruction>(&mut seeds, 1);
+    words::<PrinterLight>(&mut seeds, 1);
+    words::<Infrared>(&mut seeds, 1);
+    words::<HeatGlass>(&mut seeds, 1);
+    words::<Tail>(&mut seeds, 1);
+    words::<Projector>(&mut seeds, 1);
+    words::<TransferCurve>(&mut seeds, 1);
+    words::<WideGamut>(&mut seeds, 2);
+    words::<White>(&mut seeds, 2);
+    words::<PrintCurves>(&mut seeds, 2);
     for end in ["input", "output"] {
         seeds.extend(WorkingSpace::ALL.iter().map(|(_, word, _)| {
             (format!("{end}_space-{word}.toml"), format!("version = 1\n{end}_space = \"{word}\"\n").into_bytes())
