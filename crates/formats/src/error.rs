@@ -46,6 +46,7 @@ impl Error {
             ErrorKind::Table { .. }
             | ErrorKind::DomainsDiffer { .. }
             | ErrorKind::HaldSize { .. }
+            | ErrorKind::VltSize { .. }
             | ErrorKind::Shaper { .. }
             | ErrorKind::Half { .. } => true,
             ErrorKind::Text { .. }
@@ -84,6 +85,9 @@ pub(crate) enum ErrorKind {
         max: [f32; 3],
     },
     HaldSize {
+        found: usize,
+    },
+    VltSize {
         found: usize,
     },
     Shaper {
@@ -231,6 +235,9 @@ impl fmt::Display for Error {
                 f,
                 "domain of the {what} in a .cube file with two tables: found {min:?} to {max:?}, expected one range for all channels"
             ),
+            ErrorKind::VltSize { found } => {
+                write!(f, "size of a table for a .vlt: found {found}, expected 17, the only one that cameras read")
+            }
             ErrorKind::HaldSize { found } => write!(
                 f,
                 "size of a table for a Hald CLUT: found {found}, expected the square of a level from 2 to 16, such as 25, 36, 49 or 64"

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | `.cube` of Adobe and Resolve | [`CubeFile`] | `cube` |
 //! | Common LUT Format, `.clf` | [`ClfProcess`] | `clf` |
+//! | `.3dl` of Lustre and Flame, `.vlt` of Panasonic's cameras | [`lut_3dl`], [`vlt`] (written only) | `cube` |
 //! | `.spi3d` | [`spi3d`] | `spi3d` |
 //! | OpenColorIO configuration with looks as views | [`OcioConfig`] (written only) | `ocio` |
 //! | Hald CLUT, a PNG for photo editors | [`hald`] | `pictures` |
@@ -75,6 +76,8 @@ mod error;
 pub mod hald;
 #[cfg(feature = "ktx2")]
 pub mod ktx2;
+#[cfg(feature = "cube")]
+pub mod lut_3dl;
 mod node_order;
 #[cfg(feature = "ocio")]
 mod ocio;
@@ -85,6 +88,8 @@ pub mod spi3d;
 #[cfg(feature = "pictures")]
 pub mod strip;
 mod text;
+#[cfg(feature = "cube")]
+pub mod vlt;
 
 #[cfg(feature = "clf")]
 pub use clf::ClfProcess;

@@ -163,6 +163,8 @@ fn every_format_is_written_where_it_fits() {
         ),
         (&["--shaper", "bevy", "--format", "ktx2", "--size", "16"], &["look.bevy.ktx2"]),
         (&["--format", "ktx2", "--size", "16"], &["look.log2-shaper.ktx2"]),
+        (&["--shaper", "logc4", "--format", "3dl"], &["look.logc4.3dl"]),
+        (&["--shaper", "slog3", "--format", "vlt"], &["look.slog3.vlt"]),
         (
             &["--shaper", "logc4", "--format", "cube,clf,spi3d", "--size", "9"],
             &["look.logc4.cube", "look.logc4.clf", "look.logc4.spi3d"],

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
 
 mod clf;
+mod codes;
 mod corpus;
 mod cube;
 mod direct_json;

@@ -2,7 +2,9 @@
 
 use std::io::Write;
 
-use onelight_formats::{ClfProcess, CubeFile, OcioView, PngDepth, StripGreen, direct_json, hald, ktx2, spi3d, strip};
+use onelight_formats::{
+    ClfProcess, CubeFile, OcioView, PngDepth, StripGreen, direct_json, hald, ktx2, lut_3dl, spi3d, strip, vlt,
+};
 use onelight_lut::{DirectForm, Domain, Interpolation, Lut3d, Storage};
 
 use super::form::{Baked, BakedForm};
@@ -36,6 +38,10 @@ pub enum FileFormat {
     Godot,
     /// A Hald CLUT of 16 bits.
     Hald,
+    /// Autodesk's text of a table, codes of 12 bits.
+    ThreeDl,
+    /// The table of Panasonic's cameras, 17 nodes a side, codes of 12 bits.
+    Vlt,
     /// The numbers and equations of the direct form.
     Json,
 }
@@ -50,6 +56,8 @@ words! {
         FileFormat::Unity = "unity" "look.CODING.unity.png: tiles in a row, green upwards; 1024x32 with --size 32",
         FileFormat::Godot = "godot" "look.CODING.godot.png: tiles in a row, green downwards; 4096x64 with --size 64",
         FileFormat::Hald = "hald" "look.CODING.hald.png: a Hald CLUT, 16 bit",
+        FileFormat::ThreeDl = "3dl" "look.CODING.3dl: Autodesk's text, 33^3, 12 bit",
+        FileFormat::Vlt = "vlt" "look.CODING.vlt: for Panasonic's cameras, 17^3, 12 bit",
         FileFormat::Json = "json" "look.direct.json: the numbers and equations of the direct form";
 }
 
@@ -94,16 +102,22 @@ impl FileFormat {
         match self {
             Self::Clf => form != Form::Direct,
             Self::Json => form == Form::Direct,
-            Self::Cube | Self::Spi3d | Self::Ktx2 | Self::Unreal | Self::Unity | Self::Godot | Self::Hald => {
-                form == Form::Plain
-            }
+            Self::Cube
+            | Self::Spi3d
+            | Self::Ktx2
+            | Self::Unreal
+            | Self::Unity
+            | Self::Godot
+            | Self::Hald
+            | Self::ThreeDl
+            | Self::Vlt => form == Form::Plain,
         }
     }
 
     /// Whether its files hold no shaper, so that they take a coding of light only.
     #[must_use]
     pub fn needs_coding(self) -> bool {
-        self.strip_green().is_some() || self == Self::Hald
+        self.strip_green().is_some() || matches!(self, Self::Hald | Self::ThreeDl | Self::Vlt)
     }
 
     /// Nodes along each side that its programs expect, where they expect a number.
@@ -113,6 +127,8 @@ impl FileFormat {
             Self::Unreal => Some(16),
             Self::Unity => Some(32),
             Self::Godot | Self::Hald => Some(64),
+            Self::ThreeDl => Some(33),
+            Self::Vlt => Some(vlt::SIZE),
             Self::Cube | Self::Clf | Self::Spi3d | Self::Ktx2 | Self::Json => None,
         }
     }
@@ -122,7 +138,9 @@ impl FileFormat {
         match self {
             Self::Unreal | Self::Godot => Some(StripGreen::Down),
             Self::Unity => Some(StripGreen::Up),
-            Self::Cube | Self::Clf | Self::Spi3d | Self::Ktx2 | Self::Hald | Self::Json => None,
+            Self::Cube | Self::Clf | Self::Spi3d | Self::Ktx2 | Self::Hald | Self::ThreeDl | Self::Vlt | Self::Json => {
+                None
+            }
         }
     }
 
@@ -191,6 +209,14 @@ impl Baked {
                 hald::write(&mut bytes, self.coded_table(format)?, PngDepth::Sixteen, comments)?;
                 "hald.png"
             }
+            FileFormat::ThreeDl => {
+                lut_3dl::write(&mut bytes, self.coded_table(format)?, comments)?;
+                "3dl"
+            }
+            FileFormat::Vlt => {
+                vlt::write(&mut bytes, self.coded_table(format)?)?;
+                "vlt"
+            }
             FileFormat::Json => {
                 let BakedForm::Direct(direct) = self.form() else { return Err(format.cannot_hold(self.form().kind())) };
                 direct_json::write(&mut bytes, direct, comments)?;
@@ -219,6 +245,8 @@ impl Baked {
                 table(strip::read(bytes, format.strip_green().unwrap_or(StripGreen::Down))?)
             }
             FileFormat::Hald => table(hald::read(bytes)?),
+            // Codes of 12 bits are all that these formats change.
+            FileFormat::ThreeDl | FileFormat::Vlt => table(in_twelve_bits(self.coded_table(format)?)?),
             FileFormat::Json => Read::Direct(Box::new(direct_json::read(bytes)?)),
         };
         Ok(AsWritten { baked: self, read })
@@ -286,6 +314,12 @@ impl Baked {
             .into()),
         }
     }
+}
+
+fn in_twelve_bits(table: &Lut3d) -> Result<Lut3d, Error> {
+    const MAX: f32 = 4095.0;
+    let entry = |rgb: [f32; 3]| rgb.map(|v| (v.clamp(0.0, 1.0) * MAX).round() / MAX);
+    Ok(Lut3d::new(table.size(), table.entries().map(entry).collect())?)
 }
 
 impl AsWritten<'_> {
