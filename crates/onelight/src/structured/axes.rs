@@ -37,7 +37,9 @@ struct PrintAxis {
 impl Axes {
     pub(super) fn new(film: &Reference) -> Result<Self, Error> {
         let camera = film.camera_curves();
-        match film.print_curves() {
+        // Black and white is one layer three times, of which no map to the three of a print can be found, nor is one needed.
+        let one_layer = camera.red == camera.green && camera.green == camera.blue;
+        match film.print_curves().filter(|_| !one_layer) {
             None => {
                 let amounts = camera.map(|curve| {
                     let (least, most) = curve.amount_range().into_inner();
@@ -111,7 +113,8 @@ impl Last {
         }
         let axis = |layer: usize, curve: &AmountCurve| {
             let axis = PrintAxis { curve: curve.clone(), from: from[layer], to: to[layer] };
-            if axis.end(axis.from) < axis.end(axis.to) { Ok(axis) } else { Err(flat()) }
+            // Reversal paper holds less dye the more light it gets.
+            if axis.end(axis.from) == axis.end(axis.to) { Err(flat()) } else { Ok(axis) }
         };
         let axes = PerLayer { red: axis(0, print.red)?, green: axis(1, print.green)?, blue: axis(2, print.blue)? };
         Ok(Self::Print { matrix, offset, inverse, axes: Box::new(axes) })
