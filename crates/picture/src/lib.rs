@@ -71,9 +71,12 @@
 mod alpha;
 mod band;
 mod band_sink;
+mod colour_tag;
 mod decoder_message;
 mod description;
 mod display;
+mod display_rows;
+mod dither;
 #[cfg(feature = "exr")]
 mod dwa;
 mod error;
@@ -96,9 +99,13 @@ mod file_colours;
 mod hdr_read;
 #[cfg(feature = "icc")]
 mod icc;
+#[cfg(any(feature = "jpeg", feature = "tiff"))]
+mod icc_write;
 mod input;
 #[cfg(feature = "jpeg")]
 mod jpeg_read;
+#[cfg(feature = "jpeg")]
+mod jpeg_write;
 mod limits;
 mod metadata_text;
 mod orientation;
@@ -119,22 +126,30 @@ mod tiff_pages;
 mod tiff_read;
 #[cfg(feature = "tiff")]
 mod tiff_unpack;
+#[cfg(feature = "tiff")]
+mod tiff_write;
 mod transfer;
 mod whole_picture;
 
 pub use band::{Band, BandView, ReadingMemory, RowMut};
 pub use band_sink::BandSink;
+pub use colour_tag::{ColourTag, OutputTransfer};
 pub use description::{Channels, Chromaticities, Description, Source, StoredAlpha, TiffSamples, Tristimulus, Windows};
+pub use dither::Dither;
 pub use error::Error;
 #[cfg(feature = "exr")]
 pub use exr_write::write_exr;
+#[cfg(feature = "jpeg")]
+pub use jpeg_write::{JpegSettings, write_jpeg};
 pub use limits::Limits;
 pub use metadata_text::text_of_complete_picture;
 pub use panic_to_error::silence_panics_while_reading;
 #[cfg(feature = "png")]
-pub use png_write::{ColourTag, PngBits, PngSettings, PngTransfer, write_png};
+pub use png_write::{PngBits, PngSettings, write_png};
 pub use reader::{PictureReader, open, open_selected, readable_formats};
 pub use selection::{PartChoice, Selection};
+#[cfg(feature = "tiff")]
+pub use tiff_write::{TiffBits, TiffSettings, write_tiff};
 pub use transfer::{Curve, Transfer};
 pub use whole_picture::Picture;
 

@@ -8,14 +8,18 @@ use exr::meta::{
     attribute::{AttributeValue, Text},
 };
 
+#[cfg(feature = "jpeg")]
+use crate::jpeg_write::{TEXT_MARK, TEXT_SEGMENT};
 #[cfg(feature = "png")]
 use crate::limits::PNG_WORKING_BYTES;
+#[cfg(feature = "tiff")]
+use crate::tiff_directory::TiffFile;
 use crate::{
     input::{Input, input},
     panic_to_error::panic_to_error,
 };
 
-/// The text `key` of a PNG or OpenEXR file, as [`write_png`](crate::write_png) and [`write_exr`](crate::write_exr) write it;
+/// The text `key` of a PNG, TIFF, JPEG or OpenEXR file, as [`write_png`](crate::write_png) and its like write it;
 /// `None` where it has none, or the file is damaged, cut short or of another kind.
 ///
 /// Beginning and end are read, not the pixels: a file that is written under another name, and renamed when it is complete, is
@@ -39,11 +43,73 @@ pub fn text_of_complete_picture(reader: impl Read + Seek + Send, key: &str) -> O
     match input.fill_buf().ok()? {
         #[cfg(feature = "png")]
         [0x89, b'P', b'N', b'G', ..] => panic_to_error(|| of_png(input, key)).ok()?,
+        #[cfg(feature = "tiff")]
+        [b'M', b'M', 0, 42, ..] => of_tiff(input, length, key),
+        #[cfg(feature = "jpeg")]
+        [0xff, 0xd8, 0xff, ..] => of_jpeg(input, key),
         #[cfg(feature = "exr")]
         _ => panic_to_error(|| of_exr(input, length, key)).ok()?,
         #[cfg(not(feature = "exr"))]
         _ => None,
     }
+}
+
+/// A text as a line of a description: the key, and the value with its line ends as two characters.
+#[cfg(any(feature = "jpeg", feature = "tiff"))]
+pub(crate) fn text_line(key: &str, value: &str) -> String {
+    format!("{key}: {}", value.replace('\\', "\\\\").replace('\n', "\\n"))
+}
+
+/// What [`text_line`] made a line of.
+#[cfg(any(feature = "jpeg", feature = "tiff"))]
+fn text_of_line(line: &str, key: &str) -> Option<String> {
+    let mut value = String::new();
+    let mut letters = line.strip_prefix(key)?.strip_prefix(": ")?.chars();
+    while let Some(letter) = letters.next() {
+        match letter {
+            '\\' => value.push(if letters.next()? == 'n' { '\n' } else { '\\' }),
+            other => value.push(other),
+        }
+    }
+    Some(value)
+}
+
+/// Of a TIFF that is complete, which it is when its head names the directory at its end.
+#[cfg(feature = "tiff")]
+fn of_tiff(reader: Input<'_>, length: u64, key: &str) -> Option<String> {
+    const MAX_TEXT: u64 = 1 << 20;
+    let (mut file, first) = TiffFile::open(reader, length).ok()?;
+    let directory = file.directory(first).ok()?;
+    let tag = if key == "Software" { 305 } else { 270 };
+    let bytes = file.bytes(&directory, tag, MAX_TEXT).ok()??;
+    let text = String::from_utf8(bytes).ok()?;
+    let text = text.trim_end_matches('\0');
+    if key == "Software" { Some(text.to_owned()) } else { text.lines().find_map(|line| text_of_line(line, key)) }
+}
+
+/// Of a JPEG that ends as one.
+#[cfg(feature = "jpeg")]
+fn of_jpeg(mut reader: Input<'_>, key: &str) -> Option<String> {
+    let mut end = [0; 2];
+    reader.seek(SeekFrom::End(-2)).ok()?;
+    reader.read_exact(&mut end).ok()?;
+    reader.seek(SeekFrom::Start(2)).ok()?;
+    let mut found = None;
+    while end == [0xff, 0xd9] && found.is_none() {
+        let mut head = [0; 4];
+        reader.read_exact(&mut head).ok()?;
+        let [0xff, marker, high, low] = head else { return None };
+        if marker == 0xda {
+            break;
+        }
+        let mut segment = vec![0; usize::from(u16::from_be_bytes([high, low])).checked_sub(2)?];
+        reader.read_exact(&mut segment).ok()?;
+        if marker == 0xe0 | TEXT_SEGMENT {
+            let line = segment.strip_prefix(TEXT_MARK).and_then(|line| std::str::from_utf8(line).ok());
+            found = line.and_then(|line| text_of_line(line, key));
+        }
+    }
+    found
 }
 
 /// The last chunk of a PNG.
@@ -110,7 +176,7 @@ mod tests {
         let texts = [("Software", "onelight"), ("onelight look", "day"), (KEY, "a1")];
         let band = || BandView { top: 0, width, rgb: &rgb, alpha: None };
         let (mut png, mut exr) = (Vec::new(), Cursor::new(Vec::new()));
-        let sixteen = PngSettings { bits: PngBits::Sixteen, tag: None };
+        let sixteen = PngSettings { bits: PngBits::Sixteen, ..PngSettings::default() };
         write_png(&mut png, &picture, sixteen, &texts, |sink| sink.write(band())).unwrap();
         write_exr(&mut exr, &picture, &texts, |sink| sink.write(band())).unwrap();
         [png, exr.into_inner()]

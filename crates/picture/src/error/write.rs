@@ -26,6 +26,10 @@ pub(crate) enum WriteProblem {
         size: [usize; 2],
         rows: usize,
     },
+    /// Coverage, which the format has not.
+    Alpha {
+        format: &'static str,
+    },
     NotLatin1 {
         key: String,
     },
@@ -67,6 +71,7 @@ impl fmt::Display for WriteProblem {
             Self::RowsMissing { size: [width, height], rows } => {
                 write!(f, "a picture of {width} x {height} pixels with {rows} rows cannot be written")
             }
+            Self::Alpha { format } => write!(f, "a picture with alpha cannot be written as {format}"),
             Self::NotLatin1 { key } => {
                 write!(f, "the text `{key}` cannot be written, as it has characters beyond Latin-1")
             }

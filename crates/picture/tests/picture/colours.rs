@@ -60,9 +60,9 @@ fn our_own_tags_are_read_again() {
     let (p3, odd) = (Chromaticities::P3_D65, Chromaticities { red: [0.7, 0.3], ..Chromaticities::BT709 });
     for primaries in [Chromaticities::BT709, Chromaticities::BT2020, p3, odd] {
         for (written, read) in [
-            (PngTransfer::Srgb, Transfer::Srgb),
-            (PngTransfer::Gamma24, Transfer::Power(2.4)),
-            (PngTransfer::Linear, Transfer::Linear),
+            (OutputTransfer::Srgb, Transfer::Srgb),
+            (OutputTransfer::Gamma24, Transfer::Power(2.4)),
+            (OutputTransfer::Linear, Transfer::Linear),
         ] {
             let picture = DisplayPicture { width: 1, height: 1, rgb: vec![[0.5; 3]], alpha: None };
             let mut bytes = Vec::new();

@@ -11,13 +11,15 @@ mod layers;
 mod plain;
 mod refusals;
 mod tiff;
+mod written;
 
 use std::io::{Cursor, ErrorKind};
 
 use onelight_picture::{
-    Band, BandSink, BandView, Channels, Chromaticities, ColourTag, Description, Error, Limits, PartChoice, Picture,
-    PictureReader, PngBits, PngSettings, PngTransfer, Selection, Source, TiffSamples, Transfer, Windows, open,
-    open_selected, text_of_complete_picture, write_exr, write_png,
+    Band, BandSink, BandView, Channels, Chromaticities, ColourTag, Description, Dither, Error, JpegSettings, Limits,
+    OutputTransfer, PartChoice, Picture, PictureReader, PngBits, PngSettings, Selection, Source, TiffBits, TiffSamples,
+    TiffSettings, Transfer, Windows, open, open_selected, text_of_complete_picture, write_exr, write_jpeg, write_png,
+    write_tiff,
 };
 
 /// A picture that compresses, with a value in it that few things survive.
@@ -75,7 +77,7 @@ fn write_png_to(
     texts: &[(&str, &str)],
 ) -> Result<(), Error> {
     let fill = |sink: &mut dyn BandSink| hand_over(picture.view(), sink);
-    write_png(writer, &picture.description(), PngSettings { bits, tag }, texts, fill)
+    write_png(writer, &picture.description(), PngSettings { bits, tag, ..PngSettings::default() }, texts, fill)
 }
 
 fn read_bytes(bytes: &[u8]) -> Result<Picture, Error> {

@@ -109,15 +109,15 @@ fn png_says_what_its_values_are() {
             info.coding_independent_code_points.map(|points| (points.color_primaries, points.transfer_function));
         (info.srgb.is_some(), info.gama_chunk.map(::png::ScaledFloat::into_scaled), points, info.chrm_chunk)
     };
-    let (srgb, _, points, _) = chunks(PngTransfer::Srgb, BT709);
+    let (srgb, _, points, _) = chunks(OutputTransfer::Srgb, BT709);
     assert_eq!((srgb, points), (true, Some((1, 13))));
-    let (srgb, gamma, points, chromaticities) = chunks(PngTransfer::Srgb, P3);
+    let (srgb, gamma, points, chromaticities) = chunks(OutputTransfer::Srgb, P3);
     assert_eq!((srgb, gamma, points), (false, Some(45_454), Some((12, 13))));
     assert_eq!(chromaticities.unwrap().red.0.into_scaled(), 68_000);
-    let (srgb, gamma, points, _) = chunks(PngTransfer::Gamma24, BT709);
+    let (srgb, gamma, points, _) = chunks(OutputTransfer::Gamma24, BT709);
     assert_eq!((srgb, gamma, points), (false, Some(41_666), None));
     let odd = Chromaticities { red: [0.7, 0.3], ..BT709 };
-    let (_, gamma, points, _) = chunks(PngTransfer::Linear, odd);
+    let (_, gamma, points, _) = chunks(OutputTransfer::Linear, odd);
     assert_eq!((gamma, points), (Some(100_000), None));
 }
 

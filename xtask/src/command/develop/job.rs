@@ -7,7 +7,7 @@ use indicatif::ProgressBar;
 use onelight::TransferCurve;
 use onelight::spectra::Chromaticity;
 use onelight_picture::{
-    Band, BandSink, Channels, Chromaticities, ColourTag, Description, Limits, PngBits, PngSettings, PngTransfer,
+    Band, BandSink, Channels, Chromaticities, ColourTag, Description, Limits, OutputTransfer, PngBits, PngSettings,
 };
 use rayon::prelude::*;
 
@@ -173,9 +173,9 @@ fn write<T>(
         Target::Exr => write_exr_bands(path, &picture, &texts, fill),
         Target::Png(bits) => {
             let transfer = match spaces.output_coding {
-                TransferCurve::Srgb => PngTransfer::Srgb,
-                TransferCurve::Gamma24 => PngTransfer::Gamma24,
-                TransferCurve::Linear => PngTransfer::Linear,
+                TransferCurve::Srgb => OutputTransfer::Srgb,
+                TransferCurve::Gamma24 => OutputTransfer::Gamma24,
+                TransferCurve::Linear => OutputTransfer::Linear,
             };
             let settings = PngSettings { bits, tag: Some(ColourTag { transfer, primaries }) };
             write_png_bands(path, &picture, settings, &texts, fill)
