@@ -7,9 +7,7 @@ use std::{
 };
 
 use anyhow::{Result, anyhow, bail};
-use onelight_picture::{
-    BandSink, Description, Limits, Picture, PictureReader, PngSettings, Selection, readable_formats,
-};
+use onelight_picture::{BandSink, Description, Limits, Picture, PictureReader, Selection, readable_formats};
 
 use crate::atomic_file::write_atomically;
 
@@ -51,20 +49,6 @@ pub(crate) fn write_exr_bands<T>(
     write_atomically(path, |file| onelight_picture::write_exr(file, picture, texts, fill))
 }
 
-/// Writes as [`onelight_picture::write_png`] what `fill` hands over, band by band; what `fill` returns.
-///
-/// # Errors
-/// As [`write_exr_bands`].
-pub(crate) fn write_png_bands<T>(
-    path: &Path,
-    picture: &Description,
-    settings: PngSettings,
-    texts: &[(&str, &str)],
-    fill: impl FnOnce(&mut dyn BandSink) -> Result<T>,
-) -> Result<T> {
-    write_atomically(path, |file| onelight_picture::write_png(file, picture, settings, texts, fill))
-}
-
 /// The text `key` of the picture file `path`, if it is there and complete: see [`onelight_picture::text_of_complete_picture`].
 pub(crate) fn text_of_complete_picture(path: &Path, key: &str) -> Option<String> {
     let file = File::open(path).ok()?;
@@ -89,7 +73,7 @@ fn open_file(path: &Path) -> Result<File> {
 
 #[cfg(test)]
 mod tests {
-    use onelight_picture::{BandView, Channels, Source};
+    use onelight_picture::{BandView, Channels, PngSettings, Source, write_png};
 
     use super::*;
 
@@ -141,7 +125,7 @@ mod tests {
         let write_png = |rgb: &[[f32; 3]], texts: &[(&str, &str)]| {
             let view = BandView { top: 0, width: 3, rgb, alpha: None };
             let fill = |sink: &mut dyn BandSink| Ok(sink.write(view)?);
-            write_png_bands(&path, &description, PngSettings::default(), texts, fill)
+            write_atomically(&path, |file| write_png(file, &description, PngSettings::default(), texts, fill))
         };
         let (wrong, right) = ([[0.0; 3]; 5], [[0.0; 3]; 6]);
         let sentence = write_png(&wrong, &[]).unwrap_err().to_string();

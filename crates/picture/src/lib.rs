@@ -1,7 +1,8 @@
-//! OpenEXR, PNG, TIFF, JPEG and Radiance pictures in bands of rows: straight `f32` RGB with or without alpha in, OpenEXR and PNG out.
+//! OpenEXR, PNG, TIFF, JPEG and Radiance pictures in bands of rows: straight `f32` RGB with or without alpha in, all but
+//! Radiance out.
 //!
 //! - [`open`] gives a [`PictureReader`]: its [`Description`], then one [`Band`] of about a million pixels after the other;
-//! - [`write_exr`] and [`write_png`] take a [`Description`] and the bands that were made of a picture's, and hand a
+//! - [`write_exr`], [`write_png`], [`write_tiff`] and [`write_jpeg`] take a [`Description`] and the bands that were made of a picture's, and hand a
 //!   [`BandSink`] to the function that writes them;
 //! - [`Picture`] is a small picture held whole;
 //! - [`Limits`] bound what a file may cost. Sizes in a header are claims, which are held against them and against the

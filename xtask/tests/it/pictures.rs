@@ -58,6 +58,33 @@ fn our_own_pictures_come_back() {
     }
 }
 
+/// The same for the other kinds of file, whose profiles hold primaries of five digits and curves of four.
+#[test]
+fn our_own_tiffs_and_jpegs_come_back() {
+    let folder = with_scene();
+    let folder = folder.path();
+    for (first, second, most, more) in [
+        ("a.tif", "b.tif", 1.5 / 65_535.0, &[][..]),
+        ("c.tif", "d.tif", 0.5 / 255.0, &["--bits", "8", "--dither", "none"]),
+        ("e.tif", "f.tif", 1e-5, &["--bits", "float"]),
+        ("a.exr", "b.exr", 1e-5, &[]),
+        ("a.jpg", "b.jpg", 5.0 / 255.0, &["--quality", "100"]),
+    ] {
+        for space in ["srgb", "p3", "rec2020"] {
+            let options = [&["--approach", "clip", "--output-space", space], more].concat();
+            developed(folder, &[&["scene.exr", first, "--ev", "-1"], &options[..]].concat());
+            let said = developed(folder, &[&[first, second], &options[..]].concat());
+            assert!(!said.contains("taken for sRGB"), "{said}");
+            let [a, b] = [first, second].map(|name| read(folder, name));
+            assert!(a.primaries.unwrap().is_near(&b.primaries.unwrap()));
+            for (a, b) in a.rgb.iter().zip(&b.rgb) {
+                let far = (0..3).map(|channel| (a[channel] - b[channel]).abs()).fold(0.0, f32::max);
+                assert!(far <= most, "{first}, {space}: {a:?} {b:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn what_a_file_says_of_its_colours_is_used_and_told() {
     let folder = tempfile::tempdir().unwrap();

@@ -7,20 +7,23 @@ use indicatif::ProgressBar;
 use onelight::TransferCurve;
 use onelight::spectra::Chromaticity;
 use onelight_picture::{
-    Band, BandSink, Channels, Chromaticities, ColourTag, Description, Limits, OutputTransfer, PngBits, PngSettings,
+    Band, BandSink, Channels, Chromaticities, ColourTag, Description, JpegSettings, Limits, OutputTransfer,
+    PngSettings, TiffSettings, write_jpeg, write_png, write_tiff,
 };
 use rayon::prelude::*;
 
 use super::bands::{Busy, look_through, pass};
-use super::coverage::CoverageSeen;
+use super::coverage::{Coverage, CoverageSeen};
 use super::exposure::{Exposure, Meter};
 use super::film::Film;
 use super::input::InputSettings;
 use super::light::Light;
+use super::output::Target;
 use super::sample::Sample;
+use crate::atomic_file::write_atomically;
 use crate::exposure::SceneExposure;
 use crate::look::ChosenLook;
-use crate::picture_file::{open_selected, write_exr_bands, write_png_bands};
+use crate::picture_file::{open_selected, write_exr_bands};
 
 /// Everything that decides how a picture is developed; the same for all pictures of a run.
 pub(super) struct Settings {
@@ -33,15 +36,6 @@ pub(super) struct Settings {
     pub(super) input: InputSettings,
     pub(super) target: Target,
     pub(super) limits: Limits,
-}
-
-/// The kind of picture that is written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Target {
-    /// The display window, display-coded.
-    Png(PngBits),
-    /// The data window, display-linear, 32-bit floats.
-    Exr,
 }
 
 /// What became of a picture.
@@ -95,6 +89,10 @@ pub(super) fn develop_picture(settings: &Settings, order: &Order<'_>, progress: 
         let mut seen = CoverageSeen::default();
         look_through(&mut picture, |band| seen.add(band))?;
         light.coverage = seen.decide(&description, settings.input.background, &mut notes);
+        if matches!(target, Target::Jpeg(..)) && light.coverage == Coverage::Kept {
+            notes.push("a JPEG has no alpha: developed over black (--background chooses another)".to_owned());
+            light.coverage = Coverage::Over([0.0; 3], description.stored_alpha);
+        }
         picture = reopened()?;
     }
     let height = description.height as u64;
@@ -127,7 +125,7 @@ pub(super) fn develop_picture(settings: &Settings, order: &Order<'_>, progress: 
     let busy = write(order, *target, look, &developed, |sink| pass(&mut picture, develop, sink))?;
 
     notes.extend(meter.notes(*exposure, ev));
-    if *target != Target::Exr && !description.windows.show_pixels(description.width, description.height) {
+    if target.is_shown() && !description.windows.show_pixels(description.width, description.height) {
         notes.push("the picture is empty, as its data window lies outside of its display window".to_owned());
     }
     if beyond > 0 {
@@ -136,10 +134,8 @@ pub(super) fn develop_picture(settings: &Settings, order: &Order<'_>, progress: 
             "{beyond} pixels are brighter than {max:.1}, where the plain table ends (--form structured has no end)"
         ));
     }
-    let size = match target {
-        Target::Png(_) => description.windows.display_size,
-        Target::Exr => [description.width, description.height],
-    };
+    let size =
+        if target.is_shown() { description.windows.display_size } else { [description.width, description.height] };
     let sampled = sample.notes(look)?;
     Ok(Developed { size, ev, notes, sampled, busy })
 }
@@ -169,16 +165,23 @@ fn write<T>(
     texts.extend(order.digest.map(|digest| (DIGEST_KEY, digest)));
     let path = order.output;
     let picture = Description { primaries: Some(primaries), ..scene.clone() };
+    let transfer = match spaces.output_coding {
+        TransferCurve::Srgb => OutputTransfer::Srgb,
+        TransferCurve::Gamma24 => OutputTransfer::Gamma24,
+        TransferCurve::Linear => OutputTransfer::Linear,
+    };
+    let tag = Some(ColourTag { transfer, primaries });
     match target {
         Target::Exr => write_exr_bands(path, &picture, &texts, fill),
-        Target::Png(bits) => {
-            let transfer = match spaces.output_coding {
-                TransferCurve::Srgb => OutputTransfer::Srgb,
-                TransferCurve::Gamma24 => OutputTransfer::Gamma24,
-                TransferCurve::Linear => OutputTransfer::Linear,
-            };
-            let settings = PngSettings { bits, tag: Some(ColourTag { transfer, primaries }) };
-            write_png_bands(path, &picture, settings, &texts, fill)
+        Target::Png(bits, dither) => {
+            write_atomically(path, |file| write_png(file, &picture, PngSettings { bits, tag, dither }, &texts, fill))
+        }
+        Target::Tiff(bits, dither) => {
+            write_atomically(path, |file| write_tiff(file, &picture, TiffSettings { bits, tag, dither }, &texts, fill))
+        }
+        Target::Jpeg(quality, dither) => {
+            let settings = JpegSettings { quality, tag, dither };
+            write_atomically(path, |file| write_jpeg(file, &picture, settings, &texts, fill))
         }
     }
 }

@@ -5,23 +5,25 @@ mod film;
 mod input;
 mod job;
 mod light;
+mod output;
 mod paths;
 mod sample;
 mod sequence;
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::{Result, bail};
 use clap::Args;
 use onelight::{TransferCurve, Word};
-use onelight_picture::{Limits, PngBits};
+use onelight_picture::Limits;
 use serde_json::json;
 
 use self::exposure::Exposure;
 use self::film::{Film, Form};
 use self::input::InputArguments;
-use self::job::{Developed, Order, Settings, Target, develop_picture};
+use self::job::{Developed, Order, Settings, develop_picture};
+use self::output::{OutputArguments, Target};
 use self::paths::same_file;
 use self::sequence::{FrameNumbers, Memory, Shard, Summary};
 use crate::exposure::ExposureArguments;
@@ -34,7 +36,8 @@ pub(crate) struct Arguments {
     /// Picture: scene-linear EXR, float TIFF or Radiance, or TIFF, PNG or JPEG, whose coding is undone; many as 'shot.####.exr', shot.%04d.exr or '*.exr'
     #[arg(value_name = "IN")]
     input: PathBuf,
-    /// Developed picture: .png (display-coded) or .exr (linear, display-referred, not clipped); many as IN says it
+    /// Developed picture: .png, .tif or .jpg (display-coded) or .exr (linear, display-referred, not clipped, as floats of .tif);
+    /// many as IN says it
     #[arg(value_name = "OUT")]
     output: PathBuf,
     #[arg(hide = true)]
@@ -53,9 +56,8 @@ pub(crate) struct Arguments {
     form: Option<Form>,
     #[command(flatten)]
     picture: InputArguments,
-    /// Bits of a PNG that goes out [default: 8]
-    #[arg(long, value_parser = ["8", "16"], value_name = "8|16")]
-    bits: Option<String>,
+    #[command(flatten)]
+    out: OutputArguments,
     /// Print the result as one JSON object
     #[arg(long)]
     json: bool,
@@ -88,7 +90,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     if let Some(plan) = &plan {
         sequence::check_exposure(plan, arguments.ev)?;
     }
-    let target = target(&arguments.output, arguments.bits.as_deref())?;
+    let mut notes = Vec::new();
+    let target = arguments.out.target(&arguments.output, &mut notes)?;
     if same_file(&arguments.input, &arguments.output) {
         bail!(
             "{}: the output would replace the picture it is made from, expected another name",
@@ -97,12 +100,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     }
     let mut look = arguments.look.chosen()?;
     let spaces = look.process.spaces_mut();
-    let mut notes = Vec::new();
-    if target == Target::Exr && arguments.bits.is_some() {
-        notes.push("an EXR holds 32-bit floats: --bits is not used".to_owned());
-    }
-    if target == Target::Exr && spaces.output_coding != TransferCurve::Linear {
-        notes.push(format!("an EXR holds linear light: not coded by {}", spaces.output_coding.word()));
+    if target.is_linear() && spaces.output_coding != TransferCurve::Linear {
+        let what = if target == Target::Exr { "an EXR" } else { "a TIFF of floats" };
+        notes.push(format!("{what} holds linear light: not coded by {}", spaces.output_coding.word()));
         spaces.output_coding = TransferCurve::Linear;
     }
     let scene = arguments.camera.resolve(&look)?;
@@ -158,13 +158,4 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         "seconds_side_by_side": steps,
     });
     Ok(Report { text, json, as_json: arguments.json })
-}
-
-fn target(path: &Path, bits: Option<&str>) -> Result<Target> {
-    match path.extension().map(|e| e.to_string_lossy().to_lowercase()).as_deref() {
-        Some("png") if bits == Some("16") => Ok(Target::Png(PngBits::Sixteen)),
-        Some("png") => Ok(Target::Png(PngBits::Eight)),
-        Some("exr") => Ok(Target::Exr),
-        _ => bail!("{}: the output's name ends in neither .png nor .exr, expected one of them", path.display()),
-    }
 }

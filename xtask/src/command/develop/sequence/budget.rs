@@ -3,9 +3,9 @@
 use std::str::FromStr;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-use onelight_picture::{PictureReader, PngBits};
+use onelight_picture::{PictureReader, PngBits, TiffBits};
 
-use super::super::job::Target;
+use super::super::output::Target;
 
 /// How much memory frames may take together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,14 +45,18 @@ pub(super) fn needed(picture: &PictureReader<'_>, target: Target) -> u64 {
     let samples = description.channels.count() as u64;
     let bands = description.pixels().div_ceil(memory.band_pixels.max(1)).min(3);
     let written = match target {
-        Target::Png(PngBits::Eight) => samples,
-        Target::Png(PngBits::Sixteen) => 2 * samples,
+        Target::Png(PngBits::Eight, _) | Target::Tiff(TiffBits::Eight, _) => samples,
+        Target::Png(PngBits::Sixteen, _) | Target::Tiff(TiffBits::Sixteen, _) => 2 * samples,
+        Target::Tiff(TiffBits::Float, _) => 4 * samples,
+        // Held whole: see below.
+        Target::Jpeg(..) => 0,
         // As rows, as blocks, and packed.
         Target::Exr => 3 * 4 * samples,
     };
     // The meter keeps a logarithm for each pixel.
     let for_each_pixel = bands * 4 * samples + 8 + written;
-    memory.band_pixels.saturating_mul(for_each_pixel).saturating_add(memory.bytes_beside)
+    let whole = if matches!(target, Target::Jpeg(..)) { 3 * description.pixels() } else { 0 };
+    memory.band_pixels.saturating_mul(for_each_pixel).saturating_add(memory.bytes_beside).saturating_add(whole)
 }
 
 /// Lets frames begin as long as there is room, and a frame that is larger than all of it alone.

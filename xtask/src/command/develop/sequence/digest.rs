@@ -7,10 +7,9 @@ use std::{fs, io};
 
 use anyhow::Result;
 use onelight::Look;
-use onelight_picture::PngBits;
 use sha2::{Digest, Sha256};
 
-use super::super::job::{DIGEST_KEY, Settings, Target};
+use super::super::job::{DIGEST_KEY, Settings};
 use crate::own_stock::hex;
 use crate::picture_file::text_of_complete_picture;
 
@@ -36,14 +35,7 @@ impl Recipe {
         line("exposure", &format_args!("{exposure:?}"));
         line("scene", &scene.in_numbers());
         line("input", &format_args!("{input:?}"));
-        line(
-            "target",
-            &match target {
-                Target::Png(PngBits::Eight) => "PNG of 8 bits",
-                Target::Png(PngBits::Sixteen) => "PNG of 16 bits",
-                Target::Exr => "EXR",
-            },
-        );
+        line("target", &format_args!("{target:?}"));
         // Data sheets of one's own count by their digests, wherever they are.
         line("look", &look.text_anywhere());
         Ok(Self(text))
