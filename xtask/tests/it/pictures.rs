@@ -8,9 +8,10 @@ use onelight_picture::{Chromaticities, Limits, Picture, Source};
 
 use crate::program::{fixtures, program, with_scene};
 
-/// Develops; returns what was said.
+/// Develops exactly; returns what was said.
 fn developed(folder: &Path, arguments: &[&str]) -> String {
-    let output = program().arg("develop").args(arguments).current_dir(folder).output().unwrap();
+    let output =
+        program().args(["develop", "--form", "reference"]).args(arguments).current_dir(folder).output().unwrap();
     assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).unwrap()
 }
