@@ -7,7 +7,7 @@ use onelight::printing::{
 use onelight::spectra::{RgbSpace, SpectralShape};
 use onelight::{
     Aim, ColourSpaces, DyeModel, FilmProcess, HeatGlass, Infrared, Matching, Printing, Process, Projector, Reference,
-    Tail, White, WorkingSpace, stock,
+    Tail, White, WideGamut, WorkingSpace, stock,
 };
 
 use crate::{compiled, film, films_once, process};
@@ -48,6 +48,36 @@ fn grey_has_the_published_densities_in_sheet_aim() {
         for (read, aim) in print.densitometry().density(&grey).to_array().into_iter().zip(aim.to_array()) {
             assert!((read.0 - aim.0).abs() < 2e-3, "{}: {read:?} for {aim:?}", film.name());
         }
+    }
+}
+
+#[test]
+fn layers_that_inhibit_each_other_leave_greys_where_they_are() {
+    for process in sensible() {
+        let lamp = compiled(&FilmProcess { white: White::Lamp, gamut: WideGamut::Clip, ..process.clone() });
+        let alone = compiled(&process.clone().as_in_the_talk());
+        for i in -100..=100 {
+            let grey = [0.18 * 2f64.powf(f64::from(i) / 10.0); 3];
+            let pair = lamp.develop_linear(grey).into_iter().zip(alone.develop_linear(grey));
+            pair.for_each(|(a, b)| assert!((a - b).abs() < 1e-12, "{} {grey:?}: {a} and {b}", lamp.name()));
+        }
+    }
+}
+
+#[test]
+fn clear_film_is_white() {
+    for process in sensible() {
+        let film = compiled(&process);
+        let brightest = film.develop_linear([1e30; 3]);
+        // A negative's densest white lets a little light through to the print: 0.013 of white on 2383, most on papers.
+        let near = match &process.print {
+            None => 1e-12,
+            Some(_) if process == FilmProcess::default() => 0.013,
+            Some(_) => 0.5,
+        };
+        let most = brightest.iter().fold(0.0, |most: f64, v| most.max((v - 1.0).abs()));
+        println!("{}: {most:.4}", film.name());
+        assert!(most < near, "{}: {brightest:?}", film.name());
     }
 }
 
