@@ -9,6 +9,9 @@ use onelight::lut::{Certificate, Deviation, SamplingLaw, Search, deviation};
 use onelight::{Look, Word as _, WorkingSpace};
 use serde_json::{Map, Value, json};
 
+use super::tints::{self, Tinted};
+use crate::look::ChosenLook;
+
 /// A table whose largest certified difference is above this deserves a warning, unless `--max-de` names another.
 const WARN_ABOVE: f64 = 2.0;
 
@@ -20,11 +23,14 @@ pub(super) struct Measured {
     scene: Option<Deviation>,
     /// The tint of greys that the look itself has, whatever it is baked to.
     tint: Tint,
+    /// The same for either white and aim.
+    tints: Vec<Tinted>,
     limit: f64,
 }
 
 impl Measured {
     pub(super) fn new(
+        look: &ChosenLook,
         film: &Look,
         baked: &Baked,
         formats: &[FileFormat],
@@ -51,7 +57,8 @@ impl Measured {
             Gamut::Srgb => None,
         };
         let scene = scene.map(|colours| on_scene(film, first, colours)).transpose()?;
-        Ok(Self { files, rec2020, scene, tint: measure.tint(), limit: max_de.unwrap_or(WARN_ABOVE) })
+        let (tint, limit) = (measure.tint(), max_de.unwrap_or(WARN_ABOVE));
+        Ok(Self { files, rec2020, scene, tint, tints: tints::of(look)?, limit })
     }
 
     /// The certificate of the first format.
@@ -75,6 +82,7 @@ impl Measured {
             let _ = writeln!(text, "  the same for Rec.2020 colours: mean {mean:.3}, max {max:.3}");
         }
         let _ = writeln!(text, "{}", self.tint);
+        text += &tints::text(&self.tints);
         if let Some(d) = &self.scene {
             let _ = writeln!(
                 text,
@@ -98,6 +106,7 @@ impl Measured {
             "certificate_rec2020": self.rec2020,
             "scene": self.scene,
             "tint": { "unit": "CIELAB C*", "mid_grey": mid_grey, "largest": largest, "stops": stops },
+            "tints": tints::json(&self.tints),
             "limit": self.limit,
             "failures": self.warnings(),
         });

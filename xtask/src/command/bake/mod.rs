@@ -1,6 +1,7 @@
 mod arguments;
 mod job;
 mod measured;
+mod tints;
 
 use std::fmt::Write as _;
 
@@ -128,7 +129,7 @@ impl Table {
         let measured = match arguments.quick {
             true => None,
             false => {
-                let measure = || Measured::new(film, &baked, &job.formats, scene, arguments.max_de);
+                let measure = || Measured::new(look, film, &baked, &job.formats, scene, arguments.max_de);
                 Some(clock.time("certify", measure)?)
             }
         };

@@ -1,8 +1,9 @@
 //! What is put beside what: the comparisons of the talk, and each switch.
 
 use onelight::{
-    Aim, Approach, Calibration, DyeModel, Error, Filters, FirstControls, HeatGlass, Infrared, Matching, PrinterLight,
-    Process, ProcessKeys, Projector, Reconstruction, Tail, Word, Wratten,
+    Aim, Approach, Calibration, DyeModel, Error, Filters, FirstControls, HeatGlass, Infrared, InterImageChoice,
+    Matching, PrintCurves, PrinterLight, Process, ProcessKeys, Projector, Reconstruction, Tail, White, WideGamut, Word,
+    Wratten,
 };
 
 /// One picture: a look at an exposure.
@@ -47,7 +48,7 @@ impl Sheet {
 }
 
 /// The process of a camera film as the talk has it.
-fn usual(camera: &str) -> Result<ProcessKeys, Error> {
+pub(super) fn usual(camera: &str) -> Result<ProcessKeys, Error> {
     let mut keys = ProcessKeys::from(&Process::for_camera(camera)?);
     keys.set_talk();
     Ok(keys)
@@ -80,6 +81,7 @@ const NAME_LETTERS: usize = 27;
 /// Every comparison of the talk, and each switch; a look of the user's joins the films.
 pub(super) fn sheets(own: Option<&Process>) -> Result<Vec<Sheet>, Error> {
     let mut films = films()?;
+    let talk = films.clone();
     films.extend(own.map(|own| (own.name().chars().take(NAME_LETTERS).collect(), ProcessKeys::from(own))));
     let negative = usual(onelight::DEFAULT_CAMERA)?;
     let (k_reversal, f_reversal) = (usual("kodak-ektachrome-100")?, usual("fuji-velvia-50")?);
@@ -95,8 +97,28 @@ pub(super) fn sheets(own: Option<&Process>) -> Result<Vec<Sheet>, Error> {
         printer(&negative),
         projectors(&[("K-negative", &negative), ("K-reversal", &k_reversal)]),
         overexposure(&negative),
+        as_it_is(&talk),
         matching(&[("Portra 160", &usual("kodak-portra-160")?), ("5219", &usual("kodak-5219")?)]),
     ])
+}
+
+fn as_it_is(films: &[Named]) -> Sheet {
+    let text = "What film does beyond its sheet, each by itself and all at once, beside the talk: layers that hold back each other's \
+                development make colours stronger, clear film for white makes highlights neutral and brighter, light outside the sRGB \
+                primaries fades smoothly. Last, the print's curves read as the density of each layer's dye alone.";
+    let mut sheet = Sheet::new("film", "Film as it is", text, 5);
+    for (name, process) in films {
+        let talk = sheet.plain(format!("talk: {name}"), process);
+        let layers = |p: &mut ProcessKeys| p.inter_image = InterImageChoice::default();
+        let white = |p: &mut ProcessKeys| p.white = White::Film;
+        let gamut = |p: &mut ProcessKeys| p.gamut = WideGamut::Compress;
+        sheet.turned(format!("layers: {name}"), talk, layers);
+        sheet.turned(format!("white: {name}"), talk, white);
+        sheet.turned(format!("gamut: {name}"), talk, gamut);
+        sheet.turned(format!("all: {name}"), talk, |p| [layers, white, gamut].iter().for_each(|turn| turn(p)));
+    }
+    sheet.turned("print curves: K-negative", 0, |p| p.print_curves = PrintCurves::Principal);
+    sheet
 }
 
 fn exposures(films: &[Named]) -> Sheet {
