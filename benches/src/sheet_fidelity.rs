@@ -6,7 +6,7 @@ use onelight::spectra::{Basis, DisplayDifference, MID_GREY, Reconstruction, RgbS
 use onelight::{Aim, FilmProcess, Image, Reference, Stock, StockKind, stock, stock_ids};
 use serde::Serialize;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// One camera film in its usual process.
 #[derive(Debug, Clone, Serialize)]
@@ -162,6 +162,13 @@ fn grey_above_d_min(film: &Stock) -> Result<Option<[f64; 3]>> {
     let h = film.mid_grey()?;
     let above = film.characteristic().map(|curve| curve.density(h).0 - curve.d_min().0);
     Ok((film.kind() == StockKind::Negative).then(|| above.to_array()))
+}
+
+/// Status M densities above D-min that a grey card gives 5203: what its digital LAD is held against.
+pub(crate) fn lad_of_5203() -> Result<[f64; 3]> {
+    let film = stock("kodak-5203")?;
+    let missing = || Error::new("kodak-5203 is no negative, expected one");
+    grey_above_d_min(&film)?.ok_or_else(missing)
 }
 
 /// The table as Markdown, a row for each film, as docs/stocks.md holds it.

@@ -48,6 +48,8 @@ enum Command {
     Stability(command::stability::Arguments),
     /// Time the forms on a graphics card beside a plain copy: target/onelight/gpu.json
     GpuBench(command::gpu_bench::Arguments),
+    /// Hold looks against measurements of real film: docs/measured.md and a page with plots
+    Fidelity(command::fidelity::Arguments),
     /// List the stocks, or show one with a plot of its curves
     Stocks(command::stocks::Arguments),
     /// Render the fixture scene, and measure what going through RGB costs
@@ -88,6 +90,7 @@ fn run(command: Command) -> Result<Report> {
         Command::Report(arguments) => command::report::run(&arguments),
         Command::Stability(arguments) => command::stability::run(&arguments),
         Command::GpuBench(arguments) => command::gpu_bench::run(&arguments),
+        Command::Fidelity(arguments) => command::fidelity::run(&arguments),
         Command::Stocks(arguments) => command::stocks::run(&arguments),
         Command::Fixtures(arguments) => command::fixtures::run(&arguments),
         Command::Light(arguments) => command::light::run(&arguments),

@@ -4,6 +4,7 @@ pub(crate) mod bake;
 pub(crate) mod certify;
 pub(crate) mod compare;
 pub(crate) mod develop;
+pub(crate) mod fidelity;
 pub(crate) mod fixtures;
 pub(crate) mod gpu_bench;
 pub(crate) mod light;

@@ -1,0 +1,12 @@
+//! Looks held against measurements of real film and against published figures: docs/measured.md and a page with plots.
+
+mod causes;
+mod chart;
+mod greys;
+mod negative;
+mod page;
+mod plot;
+mod printer;
+mod words;
+
+pub use page::{Page, measure};
