@@ -72,7 +72,8 @@ pub use printable::printable;
 pub use quantity::{Density, DyeAmount, EXPOSURE_FLOOR, LogExposure};
 pub use sensitivity::{SensitivityPeak, SpectralSensitivity, Tail};
 pub use stock::{
-    AimDensities, ExposureAxis, Image, MidGrey, Normalisation, Origin, SheetText, Stock, StockKind, Uncertainty,
+    AimDensities, ExposureAxis, Figures, Image, MidGrey, Normalisation, Origin, SheetText, Stock, StockKind,
+    Uncertainty,
 };
 pub use table::{MAX_COLUMNS, MAX_ROWS, NumberTable};
 

@@ -115,6 +115,7 @@ mod reference;
 mod scene;
 mod stocks;
 mod structured;
+mod uncertainty;
 mod word;
 
 pub use direct::{DirectSettings, Nodes};
@@ -144,6 +145,7 @@ pub use reference::{PrintStage, Reference, Stages};
 pub use scene::SCENE_MAX;
 pub use stocks::{stock, stock_ids};
 pub use structured::{Entries, StructuredSettings, TableCoding};
+pub use uncertainty::Uncertainty;
 pub use word::{Word, WorkingSpace};
 
 /// The README's examples run with the documentation's.

@@ -3,11 +3,13 @@
 mod facts;
 mod figures;
 mod layers;
+mod reread;
 mod sheet;
 
 use onelight_spectra::SpectralShape;
 
 pub use facts::{AimDensities, ExposureAxis, Image, MidGrey, Normalisation, Origin, StockKind, Uncertainty};
+pub use reread::Figures;
 
 use crate::curve::CharacteristicCurve;
 use crate::densitometry::Densitometry;
@@ -118,7 +120,7 @@ pub struct SheetText<'a> {
 /// assert_eq!(mine.mid_grey()?, LogExposure(0.081_f64.log10()));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Stock {
     id: String,
     sheet: sheet::Sheet,

@@ -18,7 +18,7 @@ const MAX_BYTES: usize = 64 * 1024;
 /// Most characters of a reader's message, which may repeat what the file has.
 const MESSAGE_CHARACTERS: usize = 300;
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Sheet {
     pub(super) version: u32,
@@ -48,7 +48,7 @@ pub(super) struct Sheet {
 }
 
 /// Other curves of the same stock: a development time, a grade of paper.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct VariantSection {
     pub(super) name: String,
@@ -56,14 +56,14 @@ pub(super) struct VariantSection {
     pub(super) process: Option<String>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SensitivitySection {
     pub(super) origin: Origin,
     pub(super) criterion: Option<f64>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CharacteristicSection {
     pub(super) origin: Origin,
@@ -72,7 +72,7 @@ pub(super) struct CharacteristicSection {
     pub(super) mid_grey: Option<MidGrey>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct DyeSection {
     pub(super) origin: Origin,
@@ -82,7 +82,7 @@ pub(super) struct DyeSection {
     pub(super) d_min: Option<Origin>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct AimSection {
     pub(super) origin: Origin,
@@ -100,7 +100,7 @@ impl AimSection {
 }
 
 /// A figure that not every sheet has: `[mtf]`, `[granularity]`.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FigureSection {
     pub(super) origin: Option<Origin>,
@@ -132,7 +132,7 @@ impl Sheet {
     }
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct InterImageSection {
     pub(super) near: f64,
