@@ -11,6 +11,7 @@ mod picture_file;
 mod plot;
 mod preview;
 mod progress;
+#[cfg_attr(feature = "gpu", allow(dead_code, reason = "a build with all measurements runs no other"))]
 mod rebuild;
 mod scene_colours;
 mod sheet;

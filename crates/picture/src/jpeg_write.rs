@@ -12,7 +12,7 @@ use crate::{
     dither::Dither,
     error::{Error, WriteProblem},
     icc_write,
-    metadata_text::text_line,
+    metadata_text::{TEXT_MARK, TEXT_SEGMENT, text_line},
 };
 
 /// How a JPEG is written: baseline, colour of full resolution.
@@ -111,10 +111,6 @@ fn write_bands(
     encoder.encode(&pixels, width, height, ColorType::Rgb).map_err(problem)?;
     writer.flush().map_err(|error| WriteProblem::Io(error).into())
 }
-
-/// The number of the application segments that hold texts, and what those begin with.
-pub(crate) const TEXT_SEGMENT: u8 = 10;
-pub(crate) const TEXT_MARK: &[u8] = b"onelight\0";
 
 fn problem(error: EncodingError) -> Error {
     match error {

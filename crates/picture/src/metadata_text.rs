@@ -8,8 +8,6 @@ use exr::meta::{
     attribute::{AttributeValue, Text},
 };
 
-#[cfg(feature = "jpeg")]
-use crate::jpeg_write::{TEXT_MARK, TEXT_SEGMENT};
 #[cfg(feature = "png")]
 use crate::limits::PNG_WORKING_BYTES;
 #[cfg(feature = "tiff")]
@@ -18,6 +16,12 @@ use crate::{
     input::{Input, input},
     panic_to_error::panic_to_error,
 };
+
+/// The number of a JPEG's application segments that hold texts, and what those begin with.
+#[cfg(feature = "jpeg")]
+pub(crate) const TEXT_SEGMENT: u8 = 10;
+#[cfg(feature = "jpeg")]
+pub(crate) const TEXT_MARK: &[u8] = b"onelight\0";
 
 /// The text `key` of a PNG, TIFF, JPEG or OpenEXR file, as [`write_png`](crate::write_png) and its like write it;
 /// `None` where it has none, or the file is damaged, cut short or of another kind.
