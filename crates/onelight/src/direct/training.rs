@@ -1,15 +1,17 @@
 //! Colours that the sums of a direct form are fitted to, and how far a miss of each can be seen.
 
 use nalgebra::{Matrix3, Vector3};
-use onelight_film::{AmountCurve, DyeAmount, LogExposure, PerLayer};
+use onelight_film::{AmountCurve, DyeAmount, LogExposure, PerLayer, WideGamut};
 use onelight_lut::{DirectForm, SceneSampler};
-use onelight_spectra::{DisplayDifference, ciede2000};
+use onelight_spectra::{Chromaticity, DisplayDifference, ciede2000};
 use rayon::prelude::*;
 
 use super::sum::Sum;
 use crate::error::Error;
 use crate::reference::Reference;
+use crate::scene::multiply;
 use crate::structured::towards_the_edge;
+use crate::word::WorkingSpace;
 
 /// One value that a sum should take.
 #[derive(Debug, Clone, Copy)]
@@ -32,6 +34,9 @@ pub(super) struct Training {
 const STOPS: (f64, f64) = (-10.0, 14.0);
 /// Colours that each stage is fitted to.
 const COUNT: usize = 1024;
+/// One more for so many of these is drawn from Rec.2020: light outside the sRGB primaries leaves layers so little exposure that
+/// their dyes come in amounts of which no light inside makes any.
+const WIDE_SHARE: usize = 4;
 const SEED: u64 = 0x666d_6469_7231_3031;
 /// Difference that a miss of a whole print exposure counts for where the print hardly responds: keeps sums from falling to 0.
 const LEAST_SEEN: f64 = 3.0;
@@ -44,16 +49,20 @@ impl Training {
     }
 
     pub(super) fn of(film: &Reference, count: usize) -> Result<Self, Error> {
-        let drawn: Vec<[f64; 3]> = SceneSampler::with_seed(STOPS.0..=STOPS.1, SEED)?.take(count).collect();
+        let mut drawn = edged(SEED, count)?;
+        if film.exposure_matrix().gamut() == WideGamut::Compress {
+            let white = Chromaticity::black_body_6500_k();
+            let to_srgb = WorkingSpace::Rec2020.space().to_about(&WorkingSpace::Srgb.space(), white)?;
+            drawn.extend(edged(SEED + 1, count / WIDE_SHARE)?.into_iter().map(|rgb| multiply(&to_srgb, rgb)));
+        }
         let difference = film.difference()?;
         let projection = Sum::of(film.projection().rows(), film.rgb_from_xyz());
         let print = film.duplication().zip(film.print_curves());
         let duplication = print.map(|(stage, curves)| (Sum::of(stage.rows(), &Matrix3::identity()), curves));
         let samples: Vec<(Option<Sample>, Sample)> = drawn
             .into_par_iter()
-            .enumerate()
-            .map(|(i, rgb)| {
-                let exposure = film.exposure_matrix().expose(towards_the_edge(2 * i, rgb)).map(LogExposure::of);
+            .map(|rgb| {
+                let exposure = film.exposure_matrix().expose(rgb).map(LogExposure::of);
                 let camera = vector(film.camera_amounts(exposure));
                 let Some((sum, curves)) = &duplication else {
                     let target = projection.at(&camera);
@@ -75,6 +84,12 @@ impl Training {
         let (first, last): (Vec<Option<Sample>>, Vec<Sample>) = samples.into_iter().unzip();
         Ok(Self { duplication: first.into_iter().collect(), projection: last })
     }
+}
+
+/// Colours within primaries, some of them on their edge.
+fn edged(seed: u64, count: usize) -> Result<Vec<[f64; 3]>, Error> {
+    let drawn = SceneSampler::with_seed(STOPS.0..=STOPS.1, seed)?.take(count).enumerate();
+    Ok(drawn.map(|(i, rgb)| towards_the_edge(2 * i, rgb)).collect())
 }
 
 /// Colours with what the film makes of them: to try forms on that were not fitted.
