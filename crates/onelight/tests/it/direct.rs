@@ -76,7 +76,7 @@ fn greys_get_no_darker_with_more_light_on_any_film() {
         let film = compiled(&FilmProcess { camera: camera.into(), print, ..Default::default() });
         // Dyes of reversal film are steeper in the printer's light than those of a negative.
         let duplication = if film.name().contains("radiance") || film.name().contains("ilfochrome") { 8 } else { 5 };
-        let direct = film.direct(&settings(Nodes::Counts { projection: 8, duplication })).unwrap();
+        let direct = film.direct(&settings(Nodes::Counts { projection: 10, duplication })).unwrap();
         let to_y = WorkingSpace::Srgb.space().to_xyz().unwrap().row(1).into_owned();
         let luminance = |i: i32| {
             let coded = direct.apply([0.18 * 2f32.powf(i as f32 / 10.0); 3]);
