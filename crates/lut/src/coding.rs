@@ -27,6 +27,13 @@ pub struct PowerCoding {
 }
 
 /// Whether the hardware can do the work of a [`PowerCoding`]: a frame buffer with an sRGB format encodes linear light itself.
+///
+/// ```
+/// use onelight_lut::{CodingStandard, PowerCoding};
+/// assert_eq!(PowerCoding::new(2.4, 0.055)?.standard(), CodingStandard::Srgb);
+/// assert_eq!(PowerCoding::LINEAR.standard(), CodingStandard::Linear);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CodingStandard {
     /// Linear light is stored as it is: exponent 1.

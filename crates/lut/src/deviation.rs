@@ -2,6 +2,15 @@ use crate::error::{Error, ErrorKind};
 use rayon::prelude::*;
 
 /// How far one map lies from another over a set of samples, in the unit of the difference that was given.
+///
+/// ```
+/// use onelight_lut::deviation;
+/// let samples = [[0.1; 3], [0.5; 3]];
+/// let halved = |rgb: [f64; 3]| rgb.map(|v| v / 2.0);
+/// let found = deviation(&samples, |rgb| rgb, halved, |a, b| (a[0] - b[0]).abs())?;
+/// assert_eq!((found.count, found.max, found.worst), (2, 0.25, [0.5; 3]));
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]

@@ -17,6 +17,13 @@ pub struct ExponentialSum {
 }
 
 /// One exponential of an [`ExponentialSum`]: for a film, its dyes' densities at one wavelength and the light found there.
+///
+/// ```
+/// use onelight_lut::{ExponentialSum, ExponentialTerm};
+/// let term = ExponentialTerm { rate: [1.0, 0.0, 0.0], weight: [0.5, 1.0, 1.0] };
+/// assert_eq!(ExponentialSum::new(vec![term])?.apply([1.0, 9.0, 9.0])[0], 0.25);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExponentialTerm {
     /// Halvings for each unit of the three variables.

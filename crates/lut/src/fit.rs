@@ -14,6 +14,12 @@ pub struct FitSample {
 }
 
 /// How [`fit`] goes about it.
+///
+/// ```
+/// use onelight_lut::FitSettings;
+/// let plain_least_squares = FitSettings { rounds: 1, ..FitSettings::default() };
+/// assert!(plain_least_squares.rounds < FitSettings::default().rounds);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FitSettings {
     /// Weight, in samples, that holds each entry to where it starts: what keeps entries that no sample sees.

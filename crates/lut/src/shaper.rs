@@ -25,6 +25,13 @@ pub(crate) use log2_offset::LogNumbers;
 pub struct Shaper(ShaperCurve);
 
 /// What a [`Shaper`] computes, with its parameters: enough to write the same curve elsewhere.
+///
+/// ```
+/// use onelight_lut::{Shaper, ShaperKind};
+/// let shaper = Shaper::log2(0.02, 11.52)?;
+/// assert!(matches!(shaper.kind(), ShaperKind::Log2Offset { max, .. } if max == 11.52));
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ShaperKind {

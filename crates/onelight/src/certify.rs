@@ -28,6 +28,13 @@ use crate::scene::{MID_GREY, multiply};
 use crate::word::WorkingSpace;
 
 /// Which colours a certificate looks at, and how hard.
+///
+/// ```
+/// use onelight::certify::CertifySettings;
+/// use onelight::lut::{SamplingLaw, Search};
+/// let quick = CertifySettings { law: SamplingLaw { count: 1 << 10, ..SamplingLaw::default() }, search: Search::SamplesOnly };
+/// assert!(quick.law.count < CertifySettings::default().law.count);
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertifySettings {
     /// Which colours, over which exposures.

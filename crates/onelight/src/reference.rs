@@ -81,6 +81,14 @@ pub struct Stages {
 }
 
 /// What printing makes of one colour.
+///
+/// ```
+/// let film = onelight::Process::default().compile()?;
+/// let print = film.stages([0.18; 3]).print.ok_or("a negative is printed")?;
+/// // A grey card is printed at the aim.
+/// assert!((print.exposure.red.0 - film.print_target().ok_or("a print has a target")?.red.0).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PrintStage {
     /// Exposure of the print film behind the negative.

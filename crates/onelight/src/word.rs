@@ -54,6 +54,13 @@ macro_rules! words {
 pub(crate) use words;
 
 /// The RGB spaces that pictures come and go in: primaries only, (1, 1, 1) is always white.
+///
+/// ```
+/// use onelight::{Word, WorkingSpace};
+/// let wide = WorkingSpace::parse("rec2020")?;
+/// assert!(wide.space().primaries[0].x > WorkingSpace::Srgb.space().primaries[0].x);
+/// # Ok::<(), onelight::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum WorkingSpace {
     /// sRGB's, which are those of BT.709 (\[IEC61966-2-1\]).

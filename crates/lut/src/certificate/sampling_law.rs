@@ -81,6 +81,10 @@ impl Default for SamplingLaw {
 }
 
 /// How [`certify`](crate::certify) looks for the largest difference.
+///
+/// ```
+/// assert_ne!(onelight_lut::Search::Ascent, onelight_lut::Search::SamplesOnly);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]

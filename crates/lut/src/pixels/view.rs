@@ -2,6 +2,13 @@ use super::sample::Sample;
 use crate::error::{Error, ErrorKind};
 
 /// The channels of a pixel, in memory order.
+///
+/// ```
+/// use onelight_lut::{Channels, Pixels};
+/// let rgba = [0.18_f32, 0.18, 0.18, 1.0];
+/// assert!(Pixels::new(&rgba, Channels::Rgba, [1, 1]).is_ok());
+/// assert!(Pixels::new(&rgba, Channels::Rgba, [2, 1]).is_err(), "two pixels need eight samples");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Channels {
     /// Red, green, blue, without alpha.

@@ -9,6 +9,13 @@ use crate::structured::{Entries, TableCoding};
 use crate::word::{Word as _, words};
 
 /// The forms that a look can be baked to.
+///
+/// ```
+/// use onelight::baked::{Form, Recipe};
+/// use onelight::Word;
+/// assert_eq!(Recipe::of(Form::parse("structured")?).form, Form::Structured);
+/// # Ok::<(), onelight::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Form {
     /// A log2 shaper and one table: every program reads it; the scene's range is limited. The only form of a look without film
@@ -22,6 +29,13 @@ pub enum Form {
 }
 
 /// How scene light becomes a coordinate of a plain table.
+///
+/// ```
+/// use onelight::baked::ShaperChoice;
+/// use onelight::Word;
+/// assert_eq!(ShaperChoice::parse("logc4")?.word(), "logc4");
+/// # Ok::<(), onelight::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum ShaperChoice {
     /// log2 with offset and range fitted to the look.

@@ -39,6 +39,14 @@ impl Nodes {
 }
 
 /// How [`Reference::direct`](crate::Reference::direct) makes its form.
+///
+/// ```
+/// use onelight::{DirectSettings, Nodes};
+/// let film = onelight::Process::for_camera("fuji-velvia-50")?.compile()?;
+/// let grid = film.direct(&DirectSettings { nodes: Nodes::Grid { step_nm: 20 } })?;
+/// assert!(grid.parts().print.is_none());
+/// # Ok::<(), onelight::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DirectSettings {
     /// Where the exponentials come from.

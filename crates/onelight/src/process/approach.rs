@@ -2,6 +2,13 @@ use crate::word::words;
 
 /// How scene light becomes a picture: the key `approach` of `look.toml`. Each has a description of its own in
 /// [`crate::Process`].
+///
+/// ```
+/// use onelight::{Approach, Process, Word};
+/// assert_eq!(Process::default().approach(), Approach::Second);
+/// assert_eq!(Approach::parse("reinhard")?, Approach::Reinhard);
+/// # Ok::<(), onelight::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Approach {
     /// The simulation: spectrum, exposure, dye, print, projection.

@@ -18,6 +18,13 @@ pub struct ToneProcess {
 }
 
 /// Tone mappings that know no film.
+///
+/// ```
+/// use onelight::{Process, ToneMapping, ToneProcess};
+/// let clip = Process::from(ToneProcess { mapping: ToneMapping::Clip, ..ToneProcess::default() }).look()?;
+/// assert_eq!(clip.develop_linear([0.25, 0.5, 9.0]), [0.25, 0.5, 1.0]);
+/// # Ok::<(), onelight::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum ToneMapping {
     /// x / (1 + x) for each channel (\[Reinhard2002\], equation 3): highlights lose their colour.

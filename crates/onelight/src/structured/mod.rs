@@ -20,6 +20,11 @@ pub(crate) use first_steps::over_log2;
 use first_steps::rows;
 
 /// Where the entries of a table come from.
+///
+/// ```
+/// use onelight::{Entries, Word};
+/// assert_eq!((Entries::default(), Entries::Sampled.word()), (Entries::Fitted, "sampled"));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Entries {
     /// The film's result at each node.
@@ -31,6 +36,11 @@ pub enum Entries {
 }
 
 /// What the entries of a table are.
+///
+/// ```
+/// use onelight::{TableCoding, Word};
+/// assert_eq!((TableCoding::default(), TableCoding::Display.word()), (TableCoding::Density, "display"));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum TableCoding {
     /// -log10 of tristimulus values: most accurate in 16 bits and more.
@@ -50,6 +60,12 @@ words! {
 }
 
 /// How [`Reference::structured`] makes a table.
+///
+/// ```
+/// use onelight::{StructuredSettings, TableCoding};
+/// let phone = StructuredSettings { size: 16, coding: TableCoding::Display, ..StructuredSettings::default() };
+/// assert!(phone.size < StructuredSettings::default().size);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StructuredSettings {
     /// Nodes along each side of the table, 2 to [`Lut3d::MAX_SIZE`].
