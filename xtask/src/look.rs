@@ -81,6 +81,11 @@ impl ChosenLook {
         onelight_benches::DescribedLook { process: self.process.clone(), films: self.films.clone() }
     }
 
+    /// The films, where a data sheet of one's own is among them.
+    pub(crate) fn films(&self) -> Option<&Films> {
+        self.films.as_deref()
+    }
+
     /// The same films by another process.
     pub(crate) fn with(&self, process: Process) -> Self {
         Self { process, films: self.films.clone(), camera: self.camera.clone() }

@@ -76,10 +76,15 @@ impl Scene {
         ChartColour { name: name.to_owned(), scene: self.lab(shown), film: self.lab(film) }
     }
 
+    /// Scene-linear RGB of a patch under the white of the scene.
+    pub(super) fn patch(&self, patch: &Patch) -> [f64; 3] {
+        self.rgb(&self.basis.white().reflected_by(&patch.reflectance))
+    }
+
     /// The whole chart; `develop` takes a patch and its scene-linear RGB to display-linear RGB.
     pub(super) fn chart(&self, develop: impl Fn(&Patch, [f64; 3]) -> [f64; 3]) -> Chart {
         let colours = color_checker().iter().map(|patch| {
-            let rgb = self.rgb(&self.basis.white().reflected_by(&patch.reflectance));
+            let rgb = self.patch(patch);
             self.colour(&patch.name, rgb, develop(patch, rgb))
         });
         Chart { colours: colours.collect() }

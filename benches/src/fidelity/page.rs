@@ -2,10 +2,11 @@
 
 use std::fmt::Write as _;
 
-use onelight::{DyeModel, FilmProcess, InterImageChoice, PrintCurves, Reference, White};
+use onelight::spectra::color_checker;
+use onelight::{DyeModel, FilmProcess, InterImageChoice, PrintCurves, Reference, Uncertainty, White};
 
 use super::causes::{self, Cause};
-use super::chart::{Chart, Scene};
+use super::chart::{COLOURS, Chart, Scene};
 use super::negative::{ALONE, Negative};
 use super::plot::{self, Curve};
 use super::{greys, words};
@@ -73,6 +74,7 @@ pub fn measure() -> Result<Page> {
         densities()?,
         chroma(&scene)?,
         grey_scale(&scene)?,
+        uncertain(&scene)?,
         print_curves(&scene)?,
         turns()?,
     ];
@@ -223,6 +225,32 @@ fn grey_scale(scene: &Scene) -> Result<Part> {
         "\nLargest chroma of a grey from -4 to +6 stops, 5207 on 2383 in neutral aim: {most:.1} at {stops:+.2} stops."
     );
     Ok(Part { text, plots: plot::curves("b* of greys over L*, 5207 on 2383", &curves) })
+}
+
+fn uncertain(scene: &Scene) -> Result<Part> {
+    let mut text = words::UNCERTAINTY.to_owned();
+    for id in ["kodak-5207", "kodak-portra-400", "kodak-ektachrome-100", "fuji-velvia-50"] {
+        let uncertainty = Uncertainty::new(&FilmProcess::for_camera(id)?)?;
+        let patches: Vec<(&str, [f64; 2])> = color_checker()
+            .iter()
+            .take(COLOURS)
+            .map(|patch| (patch.name.as_str(), uncertainty.parts(scene.patch(patch))))
+            .collect();
+        let mean =
+            |of: &dyn Fn([f64; 2]) -> f64| patches.iter().map(|(_, parts)| of(*parts)).sum::<f64>() / COLOURS as f64;
+        let both = |[sheets, inter_image]: [f64; 2]| f64::hypot(sheets, inter_image);
+        let most = patches.iter().max_by(|a, b| both(a.1).total_cmp(&both(b.1)));
+        let (name, most) = most.map_or(("", 0.0), |(name, parts)| (name, both(*parts)));
+        let _ = writeln!(
+            text,
+            "| {id} | {:.1} | {most:.1} | {name} | {:.1} | {:.1} |",
+            mean(&both),
+            mean(&|parts| parts[0]),
+            mean(&|parts| parts[1])
+        );
+    }
+    text.push_str(words::UNCERTAIN_REVERSAL);
+    Ok(Part { text, plots: String::new() })
 }
 
 fn print_curves(scene: &Scene) -> Result<Part> {

@@ -75,6 +75,21 @@ L* 20 up.
 |---|---|---|---|
 ";
 
+pub(super) const UNCERTAINTY: &str = "\
+## What is uncertain
+
+The difference (CIEDE2000) that the stated uncertainties make on the ColorChecker's colours: each set of figures of each layer moved by
+what two readings of its sheet differ, near by 0.12 and far by 0.1, one at a time, combined as the root of the sum of squares. `develop
+--uncertainty map.exr` draws the same of a picture.
+
+| film | mean | largest | patch | of it sheets, mean | inter-image, mean |
+|---|---|---|---|---|---|
+";
+
+pub(super) const UNCERTAIN_REVERSAL: &str = "
+No measurement says how uncertain the inter-image effect of reversal film is: it is moved by as much as that of negatives.
+";
+
 pub(super) const PRINT_CURVES: &str = "\
 ## How a print film's curves are read
 

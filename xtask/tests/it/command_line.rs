@@ -342,3 +342,26 @@ fn data_sheets_that_cannot_be_used_are_named() {
     fs::remove_file(folder.join("mine/dye_density.csv")).unwrap();
     assert!(message(&["--camera", "mine"]).contains("dye_density.csv: cannot be read"));
 }
+
+#[test]
+fn a_map_says_what_a_look_is_uncertain_by() {
+    let folder = with_scene();
+    let folder = folder.path();
+    let told = done(folder, &["develop", "scene.exr", "film.png", "--uncertainty", "map.exr"]);
+    assert!(told.contains("map.exr: what the look is uncertain by"), "{told}");
+    let map = std::io::Cursor::new(fs::read(folder.join("map.exr")).unwrap());
+    let map = onelight_picture::Picture::read(map, "map.exr", Default::default()).unwrap();
+    for [all, sheets, inter_image] in &map.rgb {
+        assert!((all - sheets.hypot(*inter_image)).abs() < 1e-4 * all.max(1.0));
+    }
+    let most = map.rgb.iter().fold(0.0, |most: f32, rgb| most.max(rgb[0]));
+    assert!((0.5..40.0).contains(&most), "{most}");
+    for (arguments, says) in [
+        (&["--uncertainty", "map.png"][..], "ends in .exr"),
+        (&["--uncertainty", "scene.exr"], "the picture itself"),
+        (&["--uncertainty", "map.exr", "--approach", "reinhard"], "expected approach second"),
+    ] {
+        let sentence = refused(folder, &[&["develop", "scene.exr", "film.png"], arguments].concat());
+        assert!(sentence.contains(says), "{sentence}");
+    }
+}

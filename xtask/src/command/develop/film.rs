@@ -1,10 +1,10 @@
 //! The film in the form that was asked for.
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use clap::ValueEnum;
 use indicatif::ProgressBar;
 use onelight::baked::{self, Baked, Recipe};
-use onelight::{Look, Process, Reference, WideGamut};
+use onelight::{Look, Process, Reference, Uncertainty, WideGamut};
 use onelight_picture::Band;
 use rayon::prelude::*;
 
@@ -40,6 +40,8 @@ pub(crate) struct Film {
     exact: Look,
     /// What was baked of it, and maps pictures in its place.
     baked: Option<Baked>,
+    /// What takes the picture's place, where a map of it is asked for.
+    uncertainty: Option<Uncertainty>,
     form: Form,
 }
 
@@ -55,7 +57,20 @@ impl Film {
             Form::Direct => Some(baked::Form::Direct),
         };
         let baked = baked.map(|form| exact.baked(&Recipe::of(form))).transpose()?;
-        Ok(Self { exact, baked, form })
+        Ok(Self { exact, baked, uncertainty: None, form })
+    }
+
+    /// A map of what the look is uncertain by, in place of its picture: red the whole CIEDE2000, green what of it the sheets make,
+    /// blue the inter-image effect.
+    pub(super) fn uncertainty(look: &ChosenLook) -> Result<Self> {
+        let Process::Film(process) = &look.process else {
+            bail!("--uncertainty: approaches without film have no data sheets, expected approach second");
+        };
+        let found = match look.films() {
+            Some(films) => Uncertainty::with(process, films)?,
+            None => Uncertainty::new(process)?,
+        };
+        Ok(Self { exact: look.look()?, baked: None, uncertainty: Some(found), form: Form::Reference })
     }
 
     /// The exact look.
@@ -88,6 +103,16 @@ impl Film {
 
     /// Scene-linear to display-coded, in place; `progress` counts rows.
     pub(super) fn develop(&self, band: &mut Band, progress: &ProgressBar) {
+        if let Some(uncertainty) = &self.uncertainty {
+            band.rows_mut().for_each(|row| {
+                for rgb in row.rgb {
+                    let [sheets, inter_image] = uncertainty.parts(rgb.map(f64::from));
+                    *rgb = [sheets.hypot(inter_image), sheets, inter_image].map(|v| v as f32);
+                }
+                progress.inc(1);
+            });
+            return;
+        }
         match &self.baked {
             None => band.rows_mut().for_each(|row| {
                 for rgb in row.rgb {
