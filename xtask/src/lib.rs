@@ -15,6 +15,7 @@ mod progress;
 mod rebuild;
 mod scene_colours;
 mod sheet;
+mod small_picture;
 mod switches;
 mod words;
 

@@ -1,5 +1,6 @@
 //! The ColorChecker on a film: chroma and hue against the reflectances' own.
 
+use onelight::printing::NEUTRAL_DENSITY;
 use onelight::spectra::quantity::Power;
 use onelight::spectra::{
     Basis, DisplayDifference, MID_GREY, Patch, Reconstruction, RgbSpace, SpectralDistribution, color_checker,
@@ -9,9 +10,6 @@ use crate::error::Result;
 
 /// Patches that are colours; the other six are greys.
 pub(super) const COLOURS: usize = 18;
-
-/// Display-linear luminance of a grey card, in the picture and in the scene as a display would show it.
-const GREY: f64 = 0.199_526_231_496_888;
 
 /// One colour in CIELAB: the scene's own, and the film's.
 #[derive(Debug, Clone)]
@@ -72,7 +70,8 @@ impl Scene {
 
     /// A colour of the scene and what the film makes of it.
     pub(super) fn colour(&self, name: &str, scene_rgb: [f64; 3], film: [f64; 3]) -> ChartColour {
-        let shown = scene_rgb.map(|v| v * GREY / MID_GREY);
+        // A grey card as bright as in the picture.
+        let shown = scene_rgb.map(|v| v * 10f64.powf(-NEUTRAL_DENSITY) / MID_GREY);
         ChartColour { name: name.to_owned(), scene: self.lab(shown), film: self.lab(film) }
     }
 

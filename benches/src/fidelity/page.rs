@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use onelight::spectra::color_checker;
-use onelight::{DyeModel, FilmProcess, InterImageChoice, PrintCurves, Reference, Uncertainty, White};
+use onelight::{DyeModel, FilmProcess, InterImageChoice, PrintCurves, Reference, Uncertainty, White, Word as _};
 
 use super::causes::{self, Cause};
 use super::chart::{COLOURS, Chart, Scene};
@@ -39,14 +39,6 @@ const EMULATION_L: f64 = 12.0;
 const ALIGNED_L: f64 = 54.0;
 /// Those two stops as density of that camera film.
 const EMULATION_DENSITY: f64 = 0.6 * 2.0 * std::f64::consts::LOG10_2;
-
-/// What the command line calls it.
-fn word(white: White) -> &'static str {
-    match white {
-        White::Film => "film",
-        White::Lamp => "lamp",
-    }
-}
 
 /// Everything that is measured, written twice.
 pub struct Page {
@@ -190,13 +182,13 @@ fn chroma(scene: &Scene) -> Result<Part> {
         let _ = writeln!(
             text,
             "| {id} | {} | {expected:.2} | {:.2} | {:+.2} | {:+.0} | {:.0} | {turn:+.0} ({patch}) |",
-            word(white),
+            white.word(),
             chart.median_chroma(),
             chart.median_chroma() - expected,
             chart.turn("light skin"),
             chart.median_turn()
         );
-        plots.push_str(&plot::colours(&format!("{id}, white {}", word(white)), &chart.colours));
+        plots.push_str(&plot::colours(&format!("{id}, white {}", white.word()), &chart.colours));
     }
     text.push_str(words::SKIN);
     Ok(Part { text, plots })

@@ -11,6 +11,8 @@ use serde_json::{Value, json};
 use crate::Report;
 use crate::look::{ChosenLook, LookArguments};
 use crate::progress::{Clock, bar};
+#[cfg(not(feature = "measure"))]
+use crate::rebuild::measured as buffer_steps;
 
 /// Colours of a thorough certificate, and of a short one.
 const COLOURS: usize = 1 << 18;
@@ -107,12 +109,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     }
     let _ = writeln!(text, "time: {}", clock.sentence());
     Ok(Report { text, json: Value::from(rows), as_json: arguments.json })
-}
-
-/// Runs this command again in a build with the measurements.
-#[cfg(not(feature = "measure"))]
-fn buffer_steps(_: &Arguments) -> Result<Report> {
-    crate::rebuild::run_with("measure")
 }
 
 #[cfg(feature = "measure")]

@@ -12,6 +12,8 @@ use onelight::{Image, Stock, StockKind, stock, stock_ids};
 use serde_json::{Value, json};
 
 use crate::atomic_file::write_atomically;
+#[cfg(not(feature = "measure"))]
+use crate::rebuild::measured as fidelity;
 use crate::{Report, folders, plot};
 
 #[derive(Debug, Args)]
@@ -62,12 +64,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         None => all(&chosen(arguments)?),
     };
     Ok(Report { text, json, as_json: arguments.json })
-}
-
-/// Runs this command again in a build with the measurements.
-#[cfg(not(feature = "measure"))]
-fn fidelity(_: &Arguments) -> Result<Report> {
-    crate::rebuild::run_with("measure")
 }
 
 #[cfg(feature = "measure")]

@@ -1,7 +1,8 @@
 use fearless_simd::Level;
 use fearless_simd::prelude::*;
 
-use super::block::{BLOCK, Block, Plane, Scratch, load, load_rgb, store, store_indices, store_rgb, vector_starts};
+use super::block::{BLOCK, Block, Scratch, load, load_rgb, store_rgb, vector_starts};
+use super::curves::CurveAxis;
 use super::dispatch::dispatch;
 use crate::lut1d::Lut1d;
 use crate::scene_light::Rows;
@@ -16,27 +17,22 @@ pub(crate) struct CouplingCurves {
     matrix: Rows,
 }
 
-/// A channel's curve: value and rise of each piece, where the first lies, and pieces for each unit of input.
+/// A channel's curve: value and rise of each piece.
 #[derive(Clone, Debug, PartialEq)]
 struct ChannelCurve {
     pieces: Box<[[f32; 2]; MAX_PIECES]>,
-    /// The number of pieces, which is where the last ends.
-    end: f32,
-    start: f32,
-    scale: f32,
+    axis: CurveAxis,
 }
 
 impl CouplingCurves {
     /// Of curves with at most [`MAX_PIECES`] pieces; what is beyond is left out.
     pub(crate) fn new(table: &Lut1d, matrix: Rows) -> Self {
-        let [min, max] = [table.domain().min(), table.domain().max()];
         let channels = std::array::from_fn(|c| {
             let mut pieces = Box::new([[0.0; 2]; MAX_PIECES]);
             for (piece, ends) in pieces.iter_mut().zip(table.entries().windows(2)) {
                 *piece = [ends[0][c], ends[1][c] - ends[0][c]];
             }
-            let end = (table.size() - 1) as f32;
-            ChannelCurve { pieces, end, start: min[c], scale: end / (max[c] - min[c]) }
+            ChannelCurve { pieces, axis: CurveAxis::new(table, c) }
         });
         Self { channels, matrix }
     }
@@ -50,7 +46,7 @@ impl CouplingCurves {
     fn apply_with<S: Simd>(&self, simd: S, Block { rgb, scratch, .. }: &mut Block, count: usize) {
         let Scratch { index, weight, piece } = scratch;
         for (c, curve) in self.channels.iter().enumerate() {
-            curve.find(simd, &rgb[c], &mut index[c], &mut weight[c], count);
+            curve.axis.find(simd, &rgb[c], &mut index[c], &mut weight[c], count);
         }
         let covered = count.next_multiple_of(S::f32s::LEN).min(BLOCK);
         for ((curve, piece), index) in self.channels.iter().zip(piece.iter_mut()).zip(index.iter()) {
@@ -71,20 +67,6 @@ impl CouplingCurves {
                 }
             }
             store_rgb::<S>(h, rgb, i);
-        }
-    }
-}
-
-impl ChannelCurve {
-    /// The piece that each log2 exposure lies in, and where in it.
-    #[inline(always)]
-    fn find<S: Simd>(&self, simd: S, plane: &Plane, index: &mut Plane<u32>, fraction: &mut Plane, count: usize) {
-        let last = S::f32s::splat(simd, self.end - 1.0);
-        for i in vector_starts::<S>(count) {
-            let position = ((load(simd, plane, i) - self.start) * self.scale).max(0.0).min(self.end);
-            let start = position.trunc().min(last);
-            store::<S>(position - start, fraction, i);
-            store_indices(simd, start.to_int(), index, i);
         }
     }
 }

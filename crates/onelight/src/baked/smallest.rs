@@ -83,7 +83,7 @@ type Map<'a> = Box<dyn Fn([f32; 3]) -> [f32; 3] + Sync + 'a>;
 #[cfg(feature = "formats")]
 fn as_written(baked: &Baked) -> Result<Map<'_>, Error> {
     match baked.form() {
-        BakedForm::Structured(lut) => {
+        BakedForm::Structured(lut) if lut.parts().develop.coupling.is_some() => {
             let file = onelight_formats::ClfProcess::from_structured(lut)?;
             Ok(Box::new(move |rgb| file.apply(rgb)))
         }

@@ -1,4 +1,4 @@
-use onelight_film::{DyeModel, InterImage, Matching, PrintCurves, Tail, WideGamut};
+use onelight_film::{DyeModel, Matching, PrintCurves, Tail, WideGamut};
 use onelight_printing::{
     Aim, Calibration, Filters, HeatGlass, Infrared, NEUTRAL_DENSITY, Printer, PrinterLight, Projector, White,
 };
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::version::FormatVersion;
 use super::word_lists::{self, parse_calibration, parse_inter_image, parse_print};
 use crate::error::Error;
-use crate::process::{Approach, DEFAULT_CAMERA, DEFAULT_PRINT, FirstControls, InterImageChoice};
+use crate::process::{Approach, DEFAULT_CAMERA, DEFAULT_PRINT, FilmProcess, FirstControls, InterImageChoice};
 use crate::word::{self, WorkingSpace};
 
 /// Every key of `look.toml` with its value: what a file says and a command line changes before it is one kind of [`Process`].
@@ -178,10 +178,10 @@ impl ProcessKeys {
         sheet(self.print_sheet.as_deref(), self.print_sha256.as_deref())
     }
 
-    /// Film by its sheet alone, as the talk has it: the settings of [`FilmProcess::as_in_the_talk`](crate::FilmProcess::as_in_the_talk).
+    /// Film by its sheet alone, as the talk has it: the settings of [`FilmProcess::as_in_the_talk`].
     pub fn set_talk(&mut self) {
-        self.inter_image = InterImageChoice::Fixed(InterImage::NONE);
-        (self.white, self.gamut) = (White::Lamp, WideGamut::Clip);
+        let FilmProcess { inter_image, white, gamut, .. } = FilmProcess::default().as_in_the_talk();
+        (self.inter_image, self.white, self.gamut) = (inter_image, white, gamut);
     }
 
     /// What `interimage` is for a word: `film`, `none`, `negative`, `reversal`, or two numbers as `0.6,0.06`.

@@ -19,7 +19,6 @@ use super::film::Film;
 use super::input::InputSettings;
 use super::light::Light;
 use super::output::Target;
-use super::sample::Sample;
 use crate::atomic_file::write_atomically;
 use crate::exposure::SceneExposure;
 use crate::look::ChosenLook;
@@ -47,8 +46,6 @@ pub(super) struct Developed {
     pub(super) ev: f64,
     /// What the user should know.
     pub(super) notes: Vec<String>,
-    /// What the form and the gamut do to this picture, in sentences with its own figures.
-    pub(super) sampled: Vec<String>,
     pub(super) busy: Busy,
 }
 
@@ -65,11 +62,17 @@ pub(super) struct Order<'a> {
 pub(super) const DIGEST_KEY: &str = "onelight job";
 
 /// Develops the picture in one file into another. May run beside others: it holds three bands of each picture (see
-/// [`pass`]), and the threads are shared. `progress` counts rows, those of a first look for [`Exposure::Auto`] too.
+/// [`pass`]), and the threads are shared. `progress` counts rows, those of a first look for [`Exposure::Auto`] too;
+/// `watch` sees each band of scene light before the film gets it.
 ///
 /// # Errors
 /// One sentence that starts with the path it is about; then `output` is as it was before.
-pub(super) fn develop_picture(settings: &Settings, order: &Order<'_>, progress: &ProgressBar) -> Result<Developed> {
+pub(super) fn develop_picture(
+    settings: &Settings,
+    order: &Order<'_>,
+    progress: &ProgressBar,
+    mut watch: impl FnMut(&Description, &Band) + Send,
+) -> Result<Developed> {
     let input = order.input;
     let Settings { look, film, exposure, target, .. } = settings;
     let open = || open_selected(input, &settings.limits, &settings.input.selection);
@@ -114,11 +117,10 @@ pub(super) fn develop_picture(settings: &Settings, order: &Order<'_>, progress: 
         }
     };
     let mut beyond = 0;
-    let mut sample = Sample::new(film, description.width, description.height);
     let develop = |band: &mut Band| {
         light.expose(band, ev, (*exposure != Exposure::Auto).then_some(&mut meter));
         beyond += film.max().map_or(0, |max| brighter(band, max));
-        sample.look_at(band);
+        watch(&description, band);
         film.develop(band, progress);
     };
     let developed = Description { channels: light.coverage.channels(&description), ..description.clone() };
@@ -136,8 +138,7 @@ pub(super) fn develop_picture(settings: &Settings, order: &Order<'_>, progress: 
     }
     let size =
         if target.is_shown() { description.windows.display_size } else { [description.width, description.height] };
-    let sampled = sample.notes(look)?;
-    Ok(Developed { size, ev, notes, sampled, busy })
+    Ok(Developed { size, ev, notes, busy })
 }
 
 /// Pixels with a channel over `max`.

@@ -1,12 +1,11 @@
 //! What a fast form and a wide gamut do to this picture, told from some of its pixels.
 
 use anyhow::Result;
-use onelight::{Look, Process, WideGamut};
+use onelight::{Reference, WideGamut};
 use onelight_picture::Band;
 use rayon::prelude::*;
 
 use super::film::Film;
-use crate::look::ChosenLook;
 
 /// Pixels that are compared, evenly spread over the picture: a hundredth of a second through the exact film.
 const PIXELS: u64 = 1000;
@@ -14,7 +13,7 @@ const PIXELS: u64 = 1000;
 /// Some of a picture's pixels as the film gets them, and how many of all have light outside the sRGB primaries.
 pub(super) struct Sample<'a> {
     film: &'a Film,
-    width: usize,
+    /// Pixels of the picture, once a band was seen.
     all: u64,
     /// The next pixel to keep, of [`PIXELS`].
     next: u64,
@@ -31,14 +30,15 @@ struct Difference {
 }
 
 impl<'a> Sample<'a> {
-    /// Of a picture of this size.
-    pub(super) fn new(film: &'a Film, width: usize, height: usize) -> Self {
-        Self { film, width, all: (width * height) as u64, next: 0, kept: Vec::new(), outside: 0 }
+    /// Of a picture that this film will develop.
+    pub(super) fn new(film: &'a Film) -> Self {
+        Self { film, all: 0, next: 0, kept: Vec::new(), outside: 0 }
     }
 
-    /// Looks at a band of scene light before the film gets it.
-    pub(super) fn look_at(&mut self, band: &Band) {
-        let first = (band.top() * self.width) as u64;
+    /// Looks at a band of scene light, of a picture of this size, before the film gets it.
+    pub(super) fn look_at(&mut self, [width, height]: [usize; 2], band: &Band) {
+        self.all = (width * height) as u64;
+        let first = (band.top() * width) as u64;
         let pixels = band.rgb();
         loop {
             // The middle of each of as many equal parts.
@@ -48,14 +48,14 @@ impl<'a> Sample<'a> {
             self.next += 1;
         }
         if let Some(film) = self.film.compressing() {
-            let rows = pixels.par_chunks(self.width.max(1));
+            let rows = pixels.par_chunks(width.max(1));
             let outside = |rgb: &&[f32; 3]| film.is_outside_srgb(rgb.map(f64::from));
             self.outside += rows.map(|row| row.iter().filter(outside).count() as u64).sum::<u64>();
         }
     }
 
     /// A sentence for each thing there is to say.
-    pub(super) fn notes(&self, look: &ChosenLook) -> Result<Vec<String>> {
+    pub(super) fn notes(&self) -> Result<Vec<String>> {
         let mut notes = Vec::new();
         if let Some(miss) = self.film.baked().map(|baked| self.miss(|rgb| baked.apply(rgb))).transpose()? {
             notes.push(format!(
@@ -65,8 +65,8 @@ impl<'a> Sample<'a> {
                 self.kept.len()
             ));
         }
-        if self.outside > 0 {
-            notes.push(self.wide_gamut(look)?);
+        if let Some(film) = self.film.compressing().filter(|_| self.outside > 0) {
+            notes.push(self.wide_gamut(film)?);
         }
         Ok(notes)
     }
@@ -81,35 +81,26 @@ impl<'a> Sample<'a> {
         }))
     }
 
-    fn wide_gamut(&self, look: &ChosenLook) -> Result<String> {
+    /// What share of the picture lies outside, and how far clipping would move those pixels that were kept.
+    fn wide_gamut(&self, film: &Reference) -> Result<String> {
         let share = format!(
             "{:.2} % of the pixels hold light outside the sRGB primaries, which --gamut compress keeps apart",
             100.0 * self.outside as f64 / self.all as f64
         );
-        let outside: Vec<[f32; 3]> = {
-            let film = self.film.compressing();
-            let is_outside = |rgb: &[f32; 3]| film.is_some_and(|film| film.is_outside_srgb(rgb.map(f64::from)));
-            self.kept.iter().copied().filter(is_outside).collect()
-        };
-        let Some(clipped) = clipped(look)? else { return Ok(share) };
+        let outside: Vec<[f32; 3]> =
+            self.kept.iter().copied().filter(|rgb| film.is_outside_srgb(rgb.map(f64::from))).collect();
         if outside.is_empty() {
             return Ok(share);
         }
-        let (exact, difference) = (self.film.exact(), self.film.exact().difference()?);
+        // Clipping changes exposures, and nothing before or after them.
+        let clip = film.exposure_matrix().clone().with_gamut(WideGamut::Clip);
+        let difference = film.difference()?;
         let moved = Difference::of(&outside, |rgb| {
-            let rgb = rgb.map(f64::from);
-            difference.between(exact.develop_linear(rgb), clipped.develop_linear(rgb))
+            let stages = film.stages(rgb.map(f64::from));
+            difference.between(stages.linear, film.develop_exposure(clip.expose(stages.scene)))
         });
         Ok(format!("{share}: {moved} from --gamut clip on {} of {} pixels", outside.len(), self.kept.len()))
     }
-}
-
-/// The same look with light outside the sRGB primaries clipped.
-fn clipped(look: &ChosenLook) -> Result<Option<Look>> {
-    let Process::Film(film) = &look.process else { return Ok(None) };
-    let mut film = film.clone();
-    film.gamut = WideGamut::Clip;
-    look.with(film.into()).look().map(Some)
 }
 
 impl Difference {

@@ -8,6 +8,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::look::LookArguments;
+#[cfg(not(feature = "measure"))]
+pub(crate) use crate::rebuild::measured as run;
 #[cfg(feature = "measure")]
 pub(crate) use measured::run;
 
@@ -24,10 +26,4 @@ pub(crate) struct Arguments {
     /// Print the result as one JSON object
     #[arg(long)]
     json: bool,
-}
-
-/// Runs this command again in a build with the measurements.
-#[cfg(not(feature = "measure"))]
-pub(crate) fn run(_: &Arguments) -> anyhow::Result<crate::Report> {
-    crate::rebuild::run_with("measure")
 }

@@ -3,17 +3,14 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use anyhow::{Context, Result, bail};
+use anyhow::Result;
 use image::{ImageFormat, RgbImage};
-use onelight::spectra::nalgebra::{Matrix3, Vector3};
-use onelight::{FilmProcess, Image, Printing, Process, Reference, Stock, StockKind};
-use onelight_picture::{Limits, Source};
+use onelight::{FilmProcess, Image, Printing, Reference, Stock, StockKind};
 use rayon::prelude::*;
 
-use crate::picture_file::open;
 use crate::progress::bar;
-use crate::scene_colours::to_input_space;
 use crate::sheet::{BACKGROUND, caption, paste};
+use crate::small_picture::SmallPicture;
 
 /// Width of a tile in pixels.
 const TILE: usize = 288;
@@ -35,7 +32,10 @@ pub(super) struct Tiles {
 /// The picture on each of the stocks.
 pub(super) fn tiles(picture: &Path, stocks: &[Stock]) -> Result<Tiles> {
     let looks: Vec<Reference> = stocks.par_iter().map(|stock| Ok(look(stock)?.compile()?)).collect::<Result<_>>()?;
-    let scene = Scene::read(picture)?;
+    let scene = SmallPicture::read(picture, "--sheet takes a scene-linear picture", |width, height| {
+        let small = width.min(TILE);
+        [small, (height * small).div_ceil(width)]
+    })?;
     let progress = bar("develop", looks.len() as u64);
     let develop = |film: &Reference| {
         let picture = scene.rgb.iter().map(|rgb| film.develop(*rgb).map(|v| v as f32)).collect();
@@ -58,40 +58,6 @@ fn look(stock: &Stock) -> Result<FilmProcess> {
     };
     let print = Some(Printing::on(stock.id()));
     Ok(FilmProcess { camera: camera.into(), print, ..FilmProcess::default() })
-}
-
-/// A picture as small as a tile, scene-linear in sRGB primaries.
-struct Scene {
-    width: usize,
-    height: usize,
-    rgb: Vec<[f64; 3]>,
-}
-
-impl Scene {
-    /// Means over the pixels that fall into each pixel of the tile; what is not finite is left out.
-    fn read(path: &Path) -> Result<Self> {
-        let mut picture = open(path, &Limits::default())?;
-        let (from, to) = (picture.description().width, picture.description().height);
-        if picture.description().source != Source::Exr {
-            bail!("{}: --sheet takes a scene-linear picture, expected an EXR", path.display());
-        }
-        let primaries = picture.description().primaries;
-        let to_srgb = to_input_space(primaries.as_ref(), &Process::default());
-        let to_srgb = to_srgb.with_context(|| path.display().to_string())?.unwrap_or_else(Matrix3::identity);
-        let width = from.min(TILE);
-        let height = (to * width).div_ceil(from);
-        let mut sums = vec![([0.0; 3], 0.0); width * height];
-        while let Some(band) = picture.next_band()? {
-            for (i, rgb) in band.rgb().iter().enumerate().filter(|(_, rgb)| rgb.iter().all(|v| v.is_finite())) {
-                let (x, y) = (i % from, band.top() + i / from);
-                let (sum, count): &mut ([f64; 3], f64) = &mut sums[(y * height / to) * width + x * width / from];
-                sum.iter_mut().zip(rgb).for_each(|(sum, v)| *sum += f64::from(*v));
-                *count += 1.0;
-            }
-        }
-        let mean = |(sum, count): ([f64; 3], f64)| (to_srgb * Vector3::from(sum) / count.max(1.0)).into();
-        Ok(Self { width, height, rgb: sums.into_iter().map(mean).collect() })
-    }
 }
 
 /// The tiles in rows, each under its name.

@@ -3,15 +3,12 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use anyhow::{Context, Result, bail};
-use onelight::Process;
-use onelight::spectra::nalgebra::{Matrix3, Vector3};
+use anyhow::{Context, Result};
+use onelight::spectra::nalgebra::Vector3;
 use onelight::spectra::{Basis, Chromaticity, Reconstruction, RgbSpace, color_checker};
-use onelight_picture::{Description, Limits, Source};
 
 use crate::command::develop::exposure::Exposure;
-use crate::picture_file::open;
-use crate::scene_colours;
+use crate::small_picture::SmallPicture;
 
 /// Width of a tile in pixels; height of the scene's.
 pub(super) const WIDTH: usize = 288;
@@ -82,28 +79,11 @@ pub(super) fn chart_colours() -> Result<Vec<[f64; 3]>> {
 
 /// A picture of the user's, small and exposed.
 pub(super) fn user(path: &Path, exposure: Exposure) -> Result<Frame> {
-    let mut picture = open(path, &Limits::default())?;
-    let Description { width, height, source, primaries, .. } = picture.description().clone();
-    if source != Source::Exr {
-        bail!("{}: compare takes scene-linear pictures, expected an EXR", path.display());
-    }
-    let to_srgb = scene_colours::to_input_space(primaries.as_ref(), &Process::default());
-    let to_srgb = to_srgb.with_context(|| path.display().to_string())?.unwrap_or_else(Matrix3::identity);
-    let shrink = (width as f64 / WIDTH as f64).max(height as f64 / MAX_HEIGHT as f64).max(1.0);
-    let size = [width, height].map(|pixels| ((pixels as f64 / shrink) as usize).max(1));
-    // Sums of the finite pixels that fall on each small one, and their number.
-    let mut sums = vec![(Vector3::zeros(), 0.0); size[0] * size[1]];
-    while let Some(band) = picture.next_band()? {
-        for (i, rgb) in band.rgb().iter().enumerate().filter(|(_, rgb)| rgb.iter().all(|v| v.is_finite())) {
-            let (x, y) = (i % width * size[0] / width, (band.top() + i / width) * size[1] / height);
-            let (sum, count) = &mut sums[y * size[0] + x];
-            *sum += Vector3::from(rgb.map(f64::from));
-            *count += 1.0;
-        }
-    }
-    let mean =
-        |(sum, count): &(Vector3<f64>, f64)| <[f64; 3]>::from(to_srgb * sum / count.max(1.0)).map(|v| v.max(0.0));
-    let rgb: Vec<[f64; 3]> = sums.iter().map(mean).collect();
+    let small = SmallPicture::read(path, "compare takes scene-linear pictures", |width, height| {
+        let shrink = (width as f64 / WIDTH as f64).max(height as f64 / MAX_HEIGHT as f64).max(1.0);
+        [width, height].map(|pixels| ((pixels as f64 / shrink) as usize).max(1))
+    })?;
+    let rgb: Vec<[f64; 3]> = small.rgb.into_iter().map(|rgb| rgb.map(|v| v.max(0.0))).collect();
     let no_light = || format!("{}: the picture holds no light to expose for", path.display());
     let scale = match exposure {
         Exposure::Stops(stops) => stops.exp2(),
@@ -112,7 +92,7 @@ pub(super) fn user(path: &Path, exposure: Exposure) -> Result<Frame> {
     let rgb: Vec<[f32; 3]> = rgb.into_iter().map(|rgb| rgb.map(|v| (scale * v) as f32)).collect();
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
-    Ok(Frame::new(stem.chars().map(plain).take(24).collect(), (size[0], size[1]), &rgb))
+    Ok(Frame::new(stem.chars().map(plain).take(24).collect(), (small.width, small.height), &rgb))
 }
 
 /// Geometric mean of the luminance of the pixels that have any.

@@ -76,7 +76,7 @@ fn develop_frame(settings: &Settings, recipe: &Recipe, frame: &Frame, budget: &B
         }
         let _room = budget.take(bytes);
         let order = Order { input: &frame.input, output: &frame.output, digest: Some(&digest) };
-        develop_picture(settings, &order, &ProgressBar::hidden()).map(Outcome::Developed)
+        develop_picture(settings, &order, &ProgressBar::hidden(), |_, _| {}).map(Outcome::Developed)
     };
     match catch_unwind(AssertUnwindSafe(attempt)) {
         Ok(Ok(outcome)) => outcome,
