@@ -40,7 +40,7 @@ BAKES = {
     "plain": ["--quick", "--format", "cube,clf,spi3d,ktx2"],
     "plain-fitted-f16": ["--quick", "--size", "17", "--entries", "fitted", "--storage", "f16"],
     "hald": ["--quick", "--shaper", "srgb", "--size", "16", "--format", "hald"],
-    "strip": ["--quick", "--shaper", "srgb", "--size", "32", "--format", "strip,cube"],
+    "strips": ["--quick", "--shaper", "srgb", "--size", "32", "--format", "unreal,unity,cube"],
     "acescct": ["--quick", "--shaper", "acescct", "--size", "17", "--format", "cube,clf"],
     "logc4": ["--quick", "--shaper", "logc4", "--size", "17", "--format", "cube,clf"],
     "bevy": ["--quick", "--shaper", "bevy", "--size", "32", "--format", "ktx2"],
@@ -115,6 +115,8 @@ def digests(program, preset, only_pixels):
                     folder = pathlib.Path(temporary) / look / f"develop-{form}-{kind}"
                     folder.mkdir(parents=True)
                     arguments = ["develop", str(SCENE), str(folder / f"scene.{kind}"), *options, "--form", form]
+                    # 8 bits are dithered: 16 show what was computed.
+                    arguments += ["--bits", "16"] if kind == "png" else []
                     record(program, folder, f"develop {form} {kind} {look}", arguments, found, only_pixels)
     return found
 
