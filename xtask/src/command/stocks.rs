@@ -1,5 +1,5 @@
 mod contact_sheet;
-mod pairs;
+pub(super) mod pairs;
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;

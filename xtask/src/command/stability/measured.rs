@@ -1,11 +1,12 @@
 use anyhow::Result;
-use onelight::{StockKind, stock, stock_ids};
+use onelight::{Stock, stock, stock_ids};
 use onelight_benches::DescribedLook;
 use onelight_benches::stability::{Card, Contents, STEPS, rows as measured};
 
 use super::Arguments;
 use crate::atomic_file::AtomicFiles;
 use crate::command::certify::{of_the_readme, with_films};
+use crate::command::stocks::pairs::pairs;
 use crate::progress::{Clock, bar};
 use crate::{Report, folders};
 
@@ -43,13 +44,10 @@ fn looks(arguments: &Arguments) -> Result<Vec<DescribedLook>> {
         }
         return Ok(of_the_readme(&chosen.process)?.into_iter().map(DescribedLook::from).collect());
     }
-    let of_kind = |kind| stock_ids().filter(move |id| stock(id).is_ok_and(|stock| stock.kind() == kind));
-    let look = |camera: &str, print: Option<&str>| {
-        with_films(&chosen.process, (camera.to_owned(), print.map(str::to_owned)), |_| {}).map(DescribedLook::from)
+    let stocks: Vec<Stock> = stock_ids().map(stock).collect::<Result<_, _>>()?;
+    let look = |(camera, print): (&Stock, Option<&Stock>)| {
+        let films = (camera.id().to_owned(), print.map(|print| print.id().to_owned()));
+        with_films(&chosen.process, films, |_| {}).map(DescribedLook::from)
     };
-    let reversal = of_kind(StockKind::Reversal).map(|camera| look(camera, None));
-    let negatives = of_kind(StockKind::Negative)
-        .flat_map(|camera| of_kind(StockKind::Print).map(move |print| (camera, print)))
-        .map(|(camera, print)| look(camera, Some(print)));
-    reversal.chain(negatives).collect()
+    pairs(&stocks).into_iter().map(look).collect()
 }

@@ -17,7 +17,7 @@ pub(crate) use measured::run;
 pub(crate) struct Arguments {
     #[command(flatten)]
     look: LookArguments,
-    /// Every camera film on every print film, 59 looks; without it, and where no film is named, the ten of the README
+    /// Every camera film as it is shown and on everything it is printed on; without it, and where no film is named, the ten of the README
     #[arg(long, conflicts_with_all = ["camera", "print", "aim"])]
     all: bool,
     /// Folder to write stability.md and stability.json to [default: target/onelight]

@@ -12,8 +12,19 @@ use serde_json::{Value, json};
 
 use crate::progress::bar;
 
-/// Every camera film as it is shown itself or on everything that it is printed on, if one of the two is among `chosen`; and every
-/// variant of those once.
+/// Every camera film as it is shown itself, and on everything that it is usually printed on.
+pub(in crate::command) fn pairs(all: &[Stock]) -> Vec<(&Stock, Option<&Stock>)> {
+    let mut pairs = Vec::new();
+    for camera in all.iter().filter(|stock| stock.kind().is_camera_film()) {
+        if matches!(camera.kind(), StockKind::Reversal | StockKind::Instant) {
+            pairs.push((camera, None));
+        }
+        pairs.extend(all.iter().filter(|print| camera.is_printed_on(print)).map(|print| (camera, Some(print))));
+    }
+    pairs
+}
+
+/// The pairs that one of `chosen` is in; and every variant of those once.
 pub(super) fn sensible(chosen: &[Stock]) -> Result<Vec<FilmProcess>> {
     let all: Vec<Stock> = stock_ids().map(stock).collect::<Result<_, _>>()?;
     let is_chosen = |stock: &Stock| chosen.iter().any(|chosen| chosen.id() == stock.id());
@@ -22,15 +33,9 @@ pub(super) fn sensible(chosen: &[Stock]) -> Result<Vec<FilmProcess>> {
         print: print.map(Printing::on),
         ..FilmProcess::default()
     };
-    let mut looks = Vec::new();
-    for camera in all.iter().filter(|stock| stock.kind().is_camera_film()) {
-        if is_chosen(camera) && matches!(camera.kind(), StockKind::Reversal | StockKind::Instant) {
-            looks.push(look(camera.id(), None));
-        }
-        let prints = all.iter().filter(|print| camera.is_printed_on(print));
-        let prints = prints.filter(|print| is_chosen(camera) || is_chosen(print));
-        looks.extend(prints.map(|print| look(camera.id(), Some(print.id()))));
-    }
+    let with_chosen =
+        pairs(&all).into_iter().filter(|(camera, print)| is_chosen(camera) || print.is_some_and(is_chosen));
+    let mut looks: Vec<_> = with_chosen.map(|(camera, print)| look(camera.id(), print.map(Stock::id))).collect();
     for stock in chosen {
         for variant in stock.variants().map(|variant| format!("{}@{variant}", stock.id())) {
             if stock.kind().is_camera_film() {
