@@ -1,7 +1,7 @@
 //! What low-precision frame buffers between scene and film cost: the largest visible step on a grey ramp.
 
-use onelight::Look;
 use onelight::spectra::{BufferFormat, MID_GREY};
+use onelight::{DisplayLinear, Look};
 
 use crate::error::Result;
 
@@ -42,7 +42,7 @@ const RAMP_STEPS: u32 = 12_000;
 /// If the look's display has no white.
 pub fn largest_step(case: &Case, film: &Look) -> Result<f64> {
     let difference = film.difference()?;
-    let (mut largest, mut last) = (0f64, None::<([f64; 3], [f64; 3])>);
+    let (mut largest, mut last) = (0f64, None::<([f64; 3], DisplayLinear)>);
     for i in 0..=RAMP_STEPS {
         let stops = RAMP_STOPS.0 + (RAMP_STOPS.1 - RAMP_STOPS.0) * f64::from(i) / f64::from(RAMP_STEPS);
         let stored = case.stored([MID_GREY * stops.exp2(); 3]);

@@ -2,7 +2,9 @@
 
 use onelight::film::{Density, LogExposure, PerLayer};
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
-use onelight::spectra::{Basis, DisplayDifference, MID_GREY, Reconstruction, RgbSpace, SpectralShape, color_checker};
+use onelight::spectra::{
+    Basis, DisplayDifference, DisplayLinear, MID_GREY, Reconstruction, RgbSpace, SpectralShape, color_checker,
+};
 use onelight::{Aim, FilmProcess, Image, Reference, Stock, StockKind, stock, stock_ids};
 use serde::Serialize;
 
@@ -143,11 +145,11 @@ fn chart(reference: &Reference) -> Result<(f64, (f64, f64, String))> {
     let colours = color_checker().iter().take(18);
     for patch in colours {
         let rgb = basis.rgb_of(&basis.white().reflected_by(&patch.reflectance)).map(|v| v.max(0.0));
-        let polar = |linear| {
+        let polar = |linear: DisplayLinear| {
             let [_, a, b] = difference.lab(linear);
             (a.hypot(b), b.atan2(a).to_degrees())
         };
-        let (scene, film) = (polar(rgb.map(|v| v * level)), polar(reference.develop_linear(rgb)));
+        let (scene, film) = (polar(DisplayLinear(rgb.map(|v| v * level))), polar(reference.develop_linear(rgb)));
         chroma += film.0 / scene.0 / 18.0;
         hues.push(((film.1 - scene.1 + 540.0).rem_euclid(360.0) - 180.0, patch.name.clone()));
     }

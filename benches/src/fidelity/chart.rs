@@ -3,7 +3,8 @@
 use onelight::printing::NEUTRAL_DENSITY;
 use onelight::spectra::quantity::Power;
 use onelight::spectra::{
-    Basis, DisplayDifference, MID_GREY, Patch, Reconstruction, RgbSpace, SpectralDistribution, color_checker,
+    Basis, DisplayDifference, DisplayLinear, MID_GREY, Patch, Reconstruction, RgbSpace, SpectralDistribution,
+    color_checker,
 };
 
 use crate::error::Result;
@@ -64,14 +65,14 @@ impl Scene {
         self.basis.rgb_of(light).map(|v| v.max(0.0))
     }
 
-    pub(super) fn lab(&self, display_linear: [f64; 3]) -> [f64; 3] {
-        self.difference.lab(display_linear)
+    pub(super) fn lab(&self, rgb: DisplayLinear) -> [f64; 3] {
+        self.difference.lab(rgb)
     }
 
     /// A colour of the scene and what the film makes of it.
-    pub(super) fn colour(&self, name: &str, scene_rgb: [f64; 3], film: [f64; 3]) -> ChartColour {
+    pub(super) fn colour(&self, name: &str, scene_rgb: [f64; 3], film: DisplayLinear) -> ChartColour {
         // A grey card as bright as in the picture.
-        let shown = scene_rgb.map(|v| v * 10f64.powf(-NEUTRAL_DENSITY) / MID_GREY);
+        let shown = DisplayLinear(scene_rgb.map(|v| v * 10f64.powf(-NEUTRAL_DENSITY) / MID_GREY));
         ChartColour { name: name.to_owned(), scene: self.lab(shown), film: self.lab(film) }
     }
 
@@ -81,7 +82,7 @@ impl Scene {
     }
 
     /// The whole chart; `develop` takes a patch and its scene-linear RGB to display-linear RGB.
-    pub(super) fn chart(&self, develop: impl Fn(&Patch, [f64; 3]) -> [f64; 3]) -> Chart {
+    pub(super) fn chart(&self, develop: impl Fn(&Patch, [f64; 3]) -> DisplayLinear) -> Chart {
         let colours = color_checker().iter().map(|patch| {
             let rgb = self.patch(patch);
             self.colour(&patch.name, rgb, develop(patch, rgb))

@@ -4,7 +4,7 @@ use onelight::film::{AmountCurve, LogExposure, NumberTable, PerLayer, Tail};
 use onelight::printing::Projection;
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Pchip, RgbSpace, SpectralDistribution, SpectralShape};
-use onelight::{FilmProcess, Reference, Stock, White, stock};
+use onelight::{DisplayLinear, FilmProcess, Reference, Stock, White, stock};
 
 use crate::error::{Error, Result};
 
@@ -82,7 +82,7 @@ pub(super) struct Printed {
 struct Grey {
     amounts: [f64; 3],
     print: [f64; 3],
-    shown: [f64; 3],
+    shown: DisplayLinear,
 }
 
 impl Printed {
@@ -152,14 +152,14 @@ impl Printed {
         sums.map(f64::log10)
     }
 
-    /// Display-linear RGB of a print exposed so.
-    fn shown(&self, print: [f64; 3]) -> [f64; 3] {
+    /// What a print exposed so shows.
+    fn shown(&self, print: [f64; 3]) -> DisplayLinear {
         let dyes = self.curves.as_ref().zip_map(PerLayer::from(print), |curve, h| curve.amount(LogExposure(h)));
         self.projection.rgb(dyes)
     }
 
-    /// Exposure of the camera film to display-linear RGB.
-    pub(super) fn develop(&self, exposure: PerLayer<f64>) -> [f64; 3] {
+    /// What an exposure of the camera film becomes.
+    pub(super) fn develop(&self, exposure: PerLayer<f64>) -> DisplayLinear {
         let effective = self.reference.inter_image().effective(exposure.map(LogExposure::of));
         let amounts = self.reference.camera_curves().zip_map(effective, AmountCurve::amount);
         let amounts = amounts.map(|a| a.0).to_array();
@@ -169,7 +169,9 @@ impl Printed {
         };
         match self.parts.print {
             PrintDyes::AsTheyAre => self.shown(print),
-            PrintDyes::Apart => std::array::from_fn(|i| self.read(print[i], |g| g.print[i], |g| g.shown[i])),
+            PrintDyes::Apart => {
+                DisplayLinear(std::array::from_fn(|i| self.read(print[i], |g| g.print[i], |g| g.shown[i])))
+            }
         }
     }
 
@@ -231,7 +233,7 @@ mod tests {
         for rgb in [[0.18; 3], [0.05, 0.2, 0.6], [2.0, 0.5, 0.01]] {
             let exposure = printed.reference().exposure_matrix().expose(rgb);
             let (found, exact) = (printed.develop(exposure), printed.reference().develop_linear(rgb));
-            assert!(found.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-9), "{rgb:?}: {found:?} {exact:?}");
+            assert!(found.iter().zip(*exact).all(|(a, b)| (a - b).abs() < 1e-9), "{rgb:?}: {found:?} {exact:?}");
         }
     }
 
@@ -243,7 +245,7 @@ mod tests {
         for grey in [0.02, 0.18, 0.9] {
             let exposure = printed.reference().exposure_matrix().expose([grey; 3]);
             let (found, exact) = (printed.develop(exposure), printed.reference().develop_linear([grey; 3]));
-            assert!(found.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-3), "{grey}: {found:?} {exact:?}");
+            assert!(found.iter().zip(*exact).all(|(a, b)| (a - b).abs() < 1e-3), "{grey}: {found:?} {exact:?}");
         }
     }
 }

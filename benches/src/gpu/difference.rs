@@ -28,11 +28,10 @@ pub(super) fn difference(card: &Card, film: &Reference, form: Form<'_>, settings
     let pass = FilmPass::with_settings(&card.gpu.device, &card.gpu.queue, form, TextureFormat::Rgba32Float, settings)?;
     let found = developed(&card.gpu, &pass, &colours)?;
     let between = film.difference()?;
-    let linear = |coded: [f64; 3]| coded.map(|v| film.coding().decode(v));
     let differences: Vec<f64> = colours
         .par_iter()
         .zip(&found)
-        .map(|(&rgb, &found)| between.between(film.develop_linear(rgb), linear(found)))
+        .map(|(&rgb, &found)| between.between(film.develop_linear(rgb), film.coding().decode_rgb(found)))
         .collect();
     let mean = differences.iter().sum::<f64>() / differences.len() as f64;
     Ok(Difference { mean, max: differences.into_iter().fold(0.0, f64::max) })

@@ -4,7 +4,7 @@ use onelight::baked::{Form as BakedAs, Recipe};
 use onelight::lut::Sample;
 use onelight::spectra::ciede2000;
 use onelight::spectra::nalgebra::Vector3;
-use onelight::{Look, Process, TransferCurve, Word};
+use onelight::{DisplayLinear, Look, Process, TransferCurve, Word};
 use rayon::prelude::*;
 
 use super::cases::{Case, Order, Strand, general};
@@ -98,7 +98,7 @@ struct Subject {
 
 /// Display-linear colours with what is seen of them.
 struct Seen {
-    linear: Vec<[f64; 3]>,
+    linear: Vec<DisplayLinear>,
     /// As sRGB has them, whatever the look's own coding: one that begins with a power would make much of what is nothing.
     srgb: Vec<[f64; 3]>,
     lab: Vec<[f64; 3]>,
@@ -165,7 +165,7 @@ impl Subject {
 
     fn seen(&self, coded: &[[f64; 3]]) -> Result<Seen> {
         let coding = self.look.coding();
-        Seen::new(&self.look, coded.iter().map(|rgb| rgb.map(|v| coding.decode(v))).collect())
+        Seen::new(&self.look, coded.iter().map(|rgb| coding.decode_rgb(*rgb)).collect())
     }
 
     /// Whether a form that ends there tells all of a colour.
@@ -186,7 +186,7 @@ impl Subject {
     fn of_film(&self) -> Vec<Row> {
         let row = |(case, first)| {
             let found = [
-                (Quantity::NotFinite, Some(not_finite(case, first, &self.film.linear))),
+                (Quantity::NotFinite, Some(not_finite(case, first, |i| self.film.linear[i].0))),
                 (Quantity::Fall, self.fall(case, first, &self.film)),
                 (Quantity::Step, largest(case, first, |a, b| self.film.step(a, b))),
             ];
@@ -218,7 +218,7 @@ impl Subject {
             let from_film = |i| if within(i) { from_film(i) } else { 0.0 };
             let apart = |other: &Seen| each(case, first, |i| apart(seen.srgb[i], other.srgb[i]));
             let found = [
-                (Quantity::NotFinite, Some(not_finite(case, first, &output.coded))),
+                (Quantity::NotFinite, Some(not_finite(case, first, |i| output.coded[i]))),
                 (Quantity::Fall, self.fall(case, first, seen)),
                 (Quantity::Step, largest(case, first, |a, b| seen.step(a, b))),
                 (Quantity::Excess, largest(case, first, excess)),
@@ -269,16 +269,16 @@ impl Subject {
 
     /// By how much luminance falls on the greys of a case, if it has any.
     fn fall(&self, case: &Case, first: usize, seen: &Seen) -> Option<Worst> {
-        let luminance = |i: usize| self.luminance.dot(&Vector3::from(seen.linear[i]));
+        let luminance = |i: usize| self.luminance.dot(&Vector3::from(*seen.linear[i]));
         neighbours(case, first, |strand| strand.order == Order::Greys, |a, b| (luminance(a) - luminance(b)).max(0.0))
     }
 }
 
 impl Seen {
-    fn new(look: &Look, linear: Vec<[f64; 3]>) -> Result<Self> {
+    fn new(look: &Look, linear: Vec<DisplayLinear>) -> Result<Self> {
         let difference = look.difference()?;
         let lab = linear.par_iter().map(|rgb| difference.lab(*rgb)).collect();
-        let srgb = linear.par_iter().map(|rgb| rgb.map(|v| TransferCurve::Srgb.encode(v))).collect();
+        let srgb = linear.par_iter().map(|rgb| TransferCurve::Srgb.encode_rgb(*rgb)).collect();
         Ok(Self { linear, srgb, lab })
     }
 
@@ -288,8 +288,8 @@ impl Seen {
 }
 
 /// How many colours are not finite, and the first of them.
-pub(super) fn not_finite(case: &Case, first: usize, values: &[[f64; 3]]) -> Worst {
-    let bad = |i: &usize| !values[*i].iter().all(|v| v.is_finite());
+pub(super) fn not_finite(case: &Case, first: usize, colour: impl Fn(usize) -> [f64; 3]) -> Worst {
+    let bad = |i: &usize| !colour(*i).iter().all(|v| v.is_finite());
     let value = (first..first + case.len()).filter(bad).count() as f64;
     Worst { value, ..each(case, first, |i| f64::from(u8::from(bad(&i)))) }
 }

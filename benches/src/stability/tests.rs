@@ -72,7 +72,7 @@ fn faults_are_found_where_they_are() {
     assert_eq!(each(&case, first, |i| values[i]).at, [12.0; 3]);
     let mut pixels = vec![[0.0; 3]; 9];
     (pixels[0][0], pixels[4][1], pixels[8][2]) = (f64::NAN, f64::NAN, f64::INFINITY);
-    let found = not_finite(&case, first, &pixels);
+    let found = not_finite(&case, first, |i| pixels[i]);
     assert_eq!((found.value, found.at), (2.0, [2.0; 3]));
     let loose = Case::new("loose").with(Order::Loose, [[1.0; 3]; 2]);
     assert!(largest(&loose, 0, step).is_none());

@@ -51,11 +51,11 @@ pub struct Deviation {
 /// # Errors
 ///
 /// If there are no samples, or a difference is not finite; the error names the first such sample.
-pub fn deviation(
+pub fn deviation<Colour>(
     samples: &[[f64; 3]],
-    reference: impl Fn([f64; 3]) -> [f64; 3] + Sync,
-    candidate: impl Fn([f64; 3]) -> [f64; 3] + Sync,
-    difference: impl Fn(&[f64; 3], &[f64; 3]) -> f64 + Sync,
+    reference: impl Fn([f64; 3]) -> Colour + Sync,
+    candidate: impl Fn([f64; 3]) -> Colour + Sync,
+    difference: impl Fn(&Colour, &Colour) -> f64 + Sync,
 ) -> Result<Deviation, Error> {
     let differences = samples.par_iter().map(|&sample| difference(&reference(sample), &candidate(sample))).collect();
     Deviation::of(samples, differences)

@@ -18,7 +18,7 @@ use std::fmt;
 
 use nalgebra::{Matrix3, Vector3};
 use onelight_lut::{Certificate, ColourSet, Maps, Samples, SamplingLaw, Search, certify};
-use onelight_spectra::{Basis, Chromaticity, DisplayDifference, Reconstruction, color_checker};
+use onelight_spectra::{Basis, Chromaticity, DisplayDifference, DisplayLinear, Reconstruction, color_checker};
 use serde::Serialize;
 
 use crate::baked::Coordinate;
@@ -136,7 +136,7 @@ impl<'a> Certifier<'a> {
     /// If the law is out of range.
     pub fn samples(&self, law: &SamplingLaw, space: WorkingSpace) -> Result<Samples, Error> {
         let to_input = self.to_input(space)?;
-        let exact = |rgb| self.look.develop_linear(self.held(multiply(&to_input, rgb)));
+        let exact = |rgb| *self.look.develop_linear(self.held(multiply(&to_input, rgb)));
         Ok(Samples::new(&self.within(law), &[checker(space)?], exact, |_| {})?)
     }
 
@@ -167,12 +167,12 @@ impl<'a> Certifier<'a> {
         let to_input = self.to_input(space)?;
         let coding = self.look.coding();
         let maps = Maps {
-            reference: |rgb| self.look.develop_linear(self.held(multiply(&to_input, rgb))),
+            reference: |rgb| *self.look.develop_linear(self.held(multiply(&to_input, rgb))),
             candidate: |rgb: [f64; 3]| {
                 let input = multiply(&to_input, rgb).map(|v| v as f32);
                 map(input).map(|v| coding.decode(f64::from(v)))
             },
-            difference: |a: &[f64; 3], b: &[f64; 3]| self.difference.between(*a, *b),
+            difference: |a: &[f64; 3], b: &[f64; 3]| self.difference.between(DisplayLinear(*a), DisplayLinear(*b)),
             luminance: |v: &[f64; 3]| self.luminance.dot(&Vector3::from(*v)),
         };
         Ok(certify(samples, &maps, search, |_| {})?)

@@ -135,7 +135,7 @@ pub use onelight_lut::{Channels, PixelMap, Pixels, PixelsMut};
 pub use onelight_printing as printing;
 pub use onelight_printing::{Aim, Calibration, Filters, HeatGlass, Infrared, PrinterLight, Projector, White, Wratten};
 pub use onelight_spectra as spectra;
-pub use onelight_spectra::{Reconstruction, TransferCurve};
+pub use onelight_spectra::{DisplayLinear, Reconstruction, TransferCurve};
 pub use process::{
     Approach, ColourSpaces, DEFAULT_CAMERA, DEFAULT_PRINT, DEFAULT_SILVER_PRINT, FilmProcess, FirstControls,
     FirstProcess, InterImageChoice, OwnSheet, Printing, Process, StockRef, ToneMapping, ToneProcess, usual_print,

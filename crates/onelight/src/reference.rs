@@ -8,7 +8,7 @@ use onelight_printing::{
     print_target, reversal_target,
 };
 use onelight_spectra::quantity::Power;
-use onelight_spectra::{Basis, DisplayDifference, SpectralDistribution, SpectralShape, TransferCurve};
+use onelight_spectra::{Basis, DisplayDifference, DisplayLinear, SpectralDistribution, SpectralShape, TransferCurve};
 
 use crate::about::About;
 use crate::error::{Error, ErrorKind};
@@ -75,7 +75,7 @@ pub struct Stages {
     /// Tristimulus values of that light (CIE 1931); Y of the bare lamp is 1.
     pub xyz: [f64; 3],
     /// Display-linear RGB, the white being (1, 1, 1); may be negative or above 1.
-    pub linear: [f64; 3],
+    pub linear: DisplayLinear,
     /// Display-coded RGB: what [`Reference::develop`] gives.
     pub coded: [f64; 3],
 }
@@ -164,25 +164,25 @@ impl Reference {
     /// sRGB primaries lowers exposures or counts as 0, as [`WideGamut`] says.
     #[must_use]
     pub fn develop(&self, rgb: [f64; 3]) -> [f64; 3] {
-        self.develop_linear(rgb).map(|v| self.coding().encode(v))
+        self.coding().encode_rgb(self.develop_linear(rgb))
     }
 
     /// Scene-linear RGB to display-linear RGB, not clipped. Hard inputs as in [`Reference::develop`].
     #[must_use]
-    pub fn develop_linear(&self, rgb: [f64; 3]) -> [f64; 3] {
+    pub fn develop_linear(&self, rgb: [f64; 3]) -> DisplayLinear {
         self.develop_exposure(self.exposure.expose(self.scene.light(rgb)))
     }
 
     /// Exposure of the three layers (not its logarithm; matching vector included) to display-linear RGB: for light whose
     /// spectrum is known.
     #[must_use]
-    pub fn develop_exposure(&self, exposure: PerLayer<f64>) -> [f64; 3] {
+    pub fn develop_exposure(&self, exposure: PerLayer<f64>) -> DisplayLinear {
         self.develop_amounts(self.camera_amounts(exposure.map(LogExposure::of)))
     }
 
     /// Dye in the camera film to display-linear RGB: what is left to do once the camera film is developed.
     #[must_use]
-    pub fn develop_amounts(&self, amounts: PerLayer<DyeAmount>) -> [f64; 3] {
+    pub fn develop_amounts(&self, amounts: PerLayer<DyeAmount>) -> DisplayLinear {
         self.projection.rgb(self.shown(amounts))
     }
 
@@ -246,7 +246,7 @@ impl Reference {
             spectrum: self.projection.spectrum(shown),
             xyz,
             linear,
-            coded: linear.map(|v| self.coding().encode(v)),
+            coded: self.coding().encode_rgb(linear),
         }
     }
 
@@ -292,7 +292,7 @@ impl Reference {
         self.print.as_ref().map(|print| print.target)
     }
 
-    /// The colour difference between two results, display-linear.
+    /// The colour difference between two results.
     ///
     /// # Errors
     /// None for the built-in spaces.

@@ -2,8 +2,8 @@ use nalgebra::{Matrix3, Vector3};
 use onelight_film::{DyeAmount, Dyes, PerLayer};
 use onelight_spectra::quantity::Power;
 use onelight_spectra::{
-    Chromaticity, Illuminant, Kelvin, Observer, RgbSpace, SpectralDistribution, SpectralShape, black_body, illuminant,
-    xenon_lamp,
+    Chromaticity, DisplayLinear, Illuminant, Kelvin, Observer, RgbSpace, SpectralDistribution, SpectralShape,
+    black_body, illuminant, xenon_lamp,
 };
 
 use crate::error::{Error, ErrorKind};
@@ -160,8 +160,8 @@ impl Projection {
 
     /// Display-linear RGB of tristimulus values.
     #[must_use]
-    pub fn rgb_of(&self, xyz: [f64; 3]) -> [f64; 3] {
-        (self.to_rgb * Vector3::from(xyz)).into()
+    pub fn rgb_of(&self, xyz: [f64; 3]) -> DisplayLinear {
+        DisplayLinear((self.to_rgb * Vector3::from(xyz)).into())
     }
 
     /// The matrix from tristimulus values to display-linear RGB.
@@ -172,7 +172,7 @@ impl Projection {
 
     /// Display-linear RGB; the white is (1, 1, 1) unless the projector is unadapted.
     #[must_use]
-    pub fn rgb(&self, amounts: PerLayer<DyeAmount>) -> [f64; 3] {
+    pub fn rgb(&self, amounts: PerLayer<DyeAmount>) -> DisplayLinear {
         self.rgb_of(self.xyz(amounts))
     }
 
@@ -250,13 +250,13 @@ mod tests {
             let lamp = Projection::new(dyes, projector, &RgbSpace::SRGB).unwrap();
             let bare = lamp.rgb_of(lamp.white_xyz.into());
             let film = lamp.clone().adapted_to(clear);
-            assert!(film.rgb(clear).iter().zip(bare).all(|(v, bare)| (v - bare).abs() < 1e-12), "{projector:?}");
+            assert!(film.rgb(clear).iter().zip(*bare).all(|(v, bare)| (v - bare).abs() < 1e-12), "{projector:?}");
             // Adapted twice is adapted to the last.
             let grey = PerLayer::all(DyeAmount(0.4));
             let again = lamp.adapted_to(grey).adapted_to(clear);
-            assert!(again.rgb(grey).iter().zip(film.rgb(grey)).all(|(a, b)| (a - b).abs() < 1e-12));
+            assert!(again.rgb(grey).iter().zip(*film.rgb(grey)).all(|(a, b)| (a - b).abs() < 1e-12));
             let neutral = film.rgb(film.neutral_amounts(0.7, "a film").unwrap());
-            assert!(neutral.iter().zip(bare).all(|(v, bare)| (v / bare - 10f64.powf(-0.7)).abs() < 1e-9));
+            assert!(neutral.iter().zip(*bare).all(|(v, bare)| (v / bare - 10f64.powf(-0.7)).abs() < 1e-9));
         }
     }
 

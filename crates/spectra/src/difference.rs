@@ -2,6 +2,7 @@ use nalgebra::{Matrix3, Vector3};
 use palette::color_difference::Ciede2000;
 use palette::{Lab, white_point::D65};
 
+use crate::display_linear::DisplayLinear;
 use crate::error::Error;
 use crate::rgb::RgbSpace;
 
@@ -9,10 +10,11 @@ use crate::rgb::RgbSpace;
 /// white, CIEDE2000 (\[CIE142\]).
 ///
 /// ```
-/// use onelight_spectra::{DisplayDifference, RgbSpace};
+/// use onelight_spectra::{DisplayDifference, DisplayLinear, RgbSpace};
 /// let difference = DisplayDifference::new(&RgbSpace::SRGB)?;
-/// assert_eq!(difference.between([0.2; 3], [0.2; 3]), 0.0);
-/// assert_eq!(difference.between([7.0; 3], [1.0; 3]), 0.0, "both clip to white");
+/// let grey = |value| DisplayLinear([value; 3]);
+/// assert_eq!(difference.between(grey(0.2), grey(0.2)), 0.0);
+/// assert_eq!(difference.between(grey(7.0), grey(1.0)), 0.0, "both clip to white");
 /// # Ok::<(), onelight_spectra::Error>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -34,17 +36,17 @@ impl DisplayDifference {
 
     /// CIELAB of a display-linear RGB, clipped to [0, 1]; NaN counts as 0.
     #[must_use]
-    pub fn lab(&self, display_linear: [f64; 3]) -> [f64; 3] {
-        let clipped = display_linear.map(|v| if v.is_nan() { 0.0 } else { v.clamp(0.0, 1.0) });
+    pub fn lab(&self, rgb: DisplayLinear) -> [f64; 3] {
+        let clipped = rgb.map(|v| if v.is_nan() { 0.0 } else { v.clamp(0.0, 1.0) });
         let xyz = self.relative * Vector3::from(clipped);
         let [fx, fy, fz] = [lab_root(xyz.x), lab_root(xyz.y), lab_root(xyz.z)];
         [116.0 * fy - 16.0, 500.0 * (fx - fy), 200.0 * (fy - fz)]
     }
 
-    /// CIEDE2000 between two display-linear RGB values; coded ones must be decoded before
-    /// ([`TransferCurve::decode`](crate::TransferCurve::decode)).
+    /// CIEDE2000 between two display-linear colours; [`TransferCurve::decode_rgb`](crate::TransferCurve::decode_rgb) makes one of
+    /// coded RGB.
     #[must_use]
-    pub fn between(&self, a: [f64; 3], b: [f64; 3]) -> f64 {
+    pub fn between(&self, a: DisplayLinear, b: DisplayLinear) -> f64 {
         ciede2000(self.lab(a), self.lab(b))
     }
 }
@@ -99,10 +101,11 @@ mod tests {
     fn greys_have_no_chroma_and_hard_values_clip() {
         let difference = DisplayDifference::new(&RgbSpace::DISPLAY_P3).unwrap();
         for grey in [0.0, 1e-4, 0.18, 1.0] {
-            let [_, a, b] = difference.lab([grey; 3]);
+            let [_, a, b] = difference.lab(DisplayLinear([grey; 3]));
             assert!(a.abs() < 1e-10 && b.abs() < 1e-10);
         }
-        assert_eq!(difference.lab([f64::NAN, -1.0, 0.0]), difference.lab([0.0; 3]));
-        assert_eq!(difference.lab([f64::INFINITY; 3]), difference.lab([1.0; 3]));
+        let lab = |rgb| difference.lab(DisplayLinear(rgb));
+        assert_eq!(lab([f64::NAN, -1.0, 0.0]), lab([0.0; 3]));
+        assert_eq!(lab([f64::INFINITY; 3]), lab([1.0; 3]));
     }
 }

@@ -22,12 +22,15 @@
 //! ```
 //!
 //! # Which RGB
-//! Three kinds of RGB meet in a picture's way, all of them `[f64; 3]`, and each name says which it is:
+//! Three kinds of RGB meet in a picture's way:
 //!
 //! - scene-linear: light of the scene, a grey card at [`MID_GREY`], no upper end. [`Basis`] takes it, about the 6500 K white.
-//! - display-linear: light of a screen, whose white is 1. [`DisplayDifference`] takes it.
+//! - display-linear: light of a screen, whose white is 1: [`DisplayLinear`], which [`DisplayDifference`] takes.
 //! - coded: what files and cables carry. [`CodedSpace`], [`SceneCurve`] and [`TransferCurve`] `encode` linear values and `decode`
 //!   coded ones.
+//!
+//! What comes in is scene-linear everywhere, what goes out is coded or [`DisplayLinear`]; the first and the second are `[f64; 3]`, and
+//! names say which.
 //!
 //! # Out of scope
 //! Film, printers, look-up tables and pictures; chromatic adaptation other than "white is white"; fluorescence.
@@ -39,6 +42,7 @@ mod built_in;
 mod color_checker;
 #[cfg(feature = "ciede2000")]
 mod difference;
+mod display_linear;
 mod distribution;
 mod error;
 mod illuminant;
@@ -58,6 +62,7 @@ pub use buffer::BufferFormat;
 pub use color_checker::{Patch, color_checker};
 #[cfg(feature = "ciede2000")]
 pub use difference::{DisplayDifference, ciede2000};
+pub use display_linear::DisplayLinear;
 pub use distribution::{Light, Quantity, SpectralDistribution, quantity};
 pub use error::Error;
 pub use illuminant::{Illuminant, illuminant, xenon_lamp};

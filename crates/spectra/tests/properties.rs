@@ -1,7 +1,9 @@
 //! Laws of curves and spaces on random input. What was found by them is kept below as a test with a name.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
 
-use onelight_spectra::{BufferFormat, Chromaticity, DisplayDifference, Pchip, RgbSpace, SceneCurve, TransferCurve};
+use onelight_spectra::{
+    BufferFormat, Chromaticity, DisplayDifference, DisplayLinear, Pchip, RgbSpace, SceneCurve, TransferCurve,
+};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -159,6 +161,7 @@ proptest! {
     #[test]
     fn differences_are_distances(a in prop::array::uniform3(hard()), b in prop::array::uniform3(hard())) {
         let difference = DisplayDifference::new(&RgbSpace::SRGB).unwrap();
+        let (a, b) = (DisplayLinear(a), DisplayLinear(b));
         let found = difference.between(a, b);
         prop_assert!(found.is_finite() && found >= 0.0, "{found}");
         prop_assert!((found - difference.between(b, a)).abs() < 1e-9 && difference.between(a, a) == 0.0);

@@ -143,7 +143,7 @@ fn copy(pool: Option<&ThreadPool>, from: &[f32], to: &mut [f32], runs: usize) ->
 fn misses(film: &Reference, method: &BakeMethod, size: usize) -> Answer {
     let (table, exact) = (method.bake(film, size)?, BakeMethod::Reference.bake(film, size)?);
     let (difference, coding) = (film.difference()?, film.coding());
-    let linear = |rgb: &[f32; 3]| rgb.map(|v| coding.decode(f64::from(v)));
+    let linear = |rgb: &[f32; 3]| coding.decode_rgb(rgb.map(f64::from));
     let pairs: Vec<_> = table.entries().zip(exact.entries()).collect();
     Ok(vec![pairs.par_iter().map(|(a, b)| difference.between(linear(a), linear(b))).reduce(|| 0.0, f64::max)])
 }

@@ -1,7 +1,7 @@
 //! The colours that studies measure on.
 
-use onelight::Reference;
 use onelight::lut::{SceneSampler, deviation};
+use onelight::{DisplayLinear, Reference};
 use serde::Serialize;
 
 use crate::error::Result;
@@ -30,14 +30,14 @@ impl<'a> Colours<'a> {
     }
 
     /// How far a map from scene-linear to display-linear RGB lies from the film.
-    pub(super) fn miss(&self, map: impl Fn([f64; 3]) -> [f64; 3] + Sync) -> Result<Miss> {
+    pub(super) fn miss(&self, map: impl Fn([f64; 3]) -> DisplayLinear + Sync) -> Result<Miss> {
         self.miss_between(|rgb| self.film.develop_linear(rgb), map)
     }
 
     pub(super) fn miss_between(
         &self,
-        reference: impl Fn([f64; 3]) -> [f64; 3] + Sync,
-        map: impl Fn([f64; 3]) -> [f64; 3] + Sync,
+        reference: impl Fn([f64; 3]) -> DisplayLinear + Sync,
+        map: impl Fn([f64; 3]) -> DisplayLinear + Sync,
     ) -> Result<Miss> {
         let difference = self.film.difference()?;
         let found = deviation(&self.colours, reference, map, |a, b| difference.between(*a, *b))?;
@@ -47,6 +47,6 @@ impl<'a> Colours<'a> {
     /// The same for a map to display-coded RGB in `f32`.
     pub(super) fn miss_coded(&self, map: impl Fn([f32; 3]) -> [f32; 3] + Sync) -> Result<Miss> {
         let coding = self.film.coding();
-        self.miss(|rgb| map(rgb.map(|v| v as f32)).map(|v| coding.decode(f64::from(v))))
+        self.miss(|rgb| coding.decode_rgb(map(rgb.map(|v| v as f32)).map(f64::from)))
     }
 }

@@ -41,7 +41,7 @@ fn negative() -> &'static StructuredLut {
 fn eight_bits_cost_little() {
     let lut = negative();
     let difference = DisplayDifference::new(&RgbSpace::SRGB).unwrap();
-    let linear = |coded: [f32; 3]| coded.map(|v| TransferCurve::Srgb.decode(f64::from(v)));
+    let linear = |coded: [f32; 3]| TransferCurve::Srgb.decode_rgb(coded.map(f64::from));
     let (mut largest, mut sum, colours) = (0.0_f64, 0.0, colours(1 << 16));
     for &[r, g, b, _] in &colours {
         let coordinates = lut.coordinates([r, g, b]);

@@ -339,7 +339,7 @@ fn fitted_plain(look: &Look, shaper: &Shaper, table: &Lut3d) -> Result<Lut3d, Er
         })
         .collect();
     let difference = look.difference()?;
-    let linear = |coded: [f32; 3]| coded.map(|v| look.coding().decode(f64::from(v)));
+    let linear = |coded: [f32; 3]| look.coding().decode_rgb(coded.map(f64::from));
     let miss = |i: usize, value: [f32; 3]| difference.between(linear(samples[i].target), linear(value));
     Ok(fit(table, Interpolation::Tetrahedral, &samples, miss, FitSettings::default())?)
 }

@@ -112,7 +112,7 @@ impl<'a> Trial<'a> {
         let pairs = colours.par_iter().map(|&rgb| {
             let single = rgb.map(|v| v as f32);
             let linear = match &baking {
-                Some(form) => form.apply(single).map(|v| look.coding().decode(f64::from(v))),
+                Some(form) => look.coding().decode_rgb(form.apply(single).map(f64::from)),
                 None => look.develop_linear(rgb),
             };
             (single, difference.lab(linear))
@@ -131,7 +131,7 @@ impl<'a> Trial<'a> {
         };
         let lut = PlainLut::new(shaper, table, Interpolation::Tetrahedral);
         let coding = self.look.coding();
-        let read = |rgb: [f32; 3]| self.difference.lab(lut.apply(rgb).map(|v| coding.decode(f64::from(v))));
+        let read = |rgb: [f32; 3]| self.difference.lab(coding.decode_rgb(lut.apply(rgb).map(f64::from)));
         let all: Vec<f64> = self.pairs.par_iter().map(|(rgb, exact)| ciede2000(*exact, read(*rgb))).collect();
         Ok(all.iter().sum::<f64>() / all.len() as f64 + all.iter().copied().fold(0.0, f64::max) / 100.0)
     }

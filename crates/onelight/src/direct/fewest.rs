@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
 use onelight_lut::{Certificate, DirectForm, Maps, Samples, SamplingLaw, Search, certify};
+use onelight_spectra::DisplayLinear;
 
 use super::fit::{fit, misses};
 use super::settings::{Nodes, check_limit};
@@ -80,7 +81,7 @@ struct Measure<'a> {
 impl<'a> Measure<'a> {
     fn new(film: &'a Reference) -> Result<Self, Error> {
         // Colours of the law are in sRGB primaries.
-        let exact = |rgb| film.develop_linear(film.input_of_srgb(rgb));
+        let exact = |rgb| *film.develop_linear(film.input_of_srgb(rgb));
         let samples = Samples::new(&SamplingLaw::default(), &[], exact, |_| {})?;
         Ok(Self { film, samples, luminance: film.spaces().luminance()? })
     }
@@ -89,11 +90,11 @@ impl<'a> Measure<'a> {
         let difference = self.film.difference()?;
         let input = |rgb: [f64; 3]| self.film.input_of_srgb(rgb);
         let maps = Maps {
-            reference: |rgb| self.film.develop_linear(input(rgb)),
+            reference: |rgb| *self.film.develop_linear(input(rgb)),
             candidate: |rgb: [f64; 3]| {
                 direct.apply(input(rgb).map(|v| v as f32)).map(|v| self.film.coding().decode(f64::from(v)))
             },
-            difference: |a: &[f64; 3], b: &[f64; 3]| difference.between(*a, *b),
+            difference: |a: &[f64; 3], b: &[f64; 3]| difference.between(DisplayLinear(*a), DisplayLinear(*b)),
             luminance: |v: &[f64; 3]| self.luminance.dot(&Vector3::from(*v)),
         };
         Ok(certify(&self.samples, &maps, search, |_| {})?)

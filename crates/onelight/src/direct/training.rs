@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use onelight_film::{AmountCurve, DyeAmount, LogExposure, PerLayer, WideGamut};
 use onelight_lut::{DirectForm, SceneSampler};
-use onelight_spectra::{Chromaticity, DisplayDifference, ciede2000};
+use onelight_spectra::{Chromaticity, DisplayDifference, DisplayLinear, ciede2000};
 use rayon::prelude::*;
 
 use super::sum::Sum;
@@ -96,8 +96,8 @@ fn edged(seed: u64, count: usize) -> Result<Vec<[f64; 3]>, Error> {
 pub(super) struct Probes<'a> {
     film: &'a Reference,
     difference: DisplayDifference,
-    /// In the film's input space, and display-linear.
-    colours: Vec<([f32; 3], [f64; 3])>,
+    /// In the film's input space.
+    colours: Vec<([f32; 3], DisplayLinear)>,
 }
 
 const PROBES: usize = 256;
@@ -114,7 +114,7 @@ impl<'a> Probes<'a> {
 
     pub(super) fn largest_miss(&self, direct: &DirectForm) -> f64 {
         let misses = self.colours.par_iter().map(|&(rgb, exact)| {
-            self.difference.between(exact, direct.apply(rgb).map(|v| self.film.coding().decode(f64::from(v))))
+            self.difference.between(exact, self.film.coding().decode_rgb(direct.apply(rgb).map(f64::from)))
         });
         misses.reduce(|| 0.0, f64::max)
     }
@@ -143,7 +143,7 @@ fn at_least(m: Matrix3<f64>) -> Matrix3<f64> {
 fn seen(difference: &DisplayDifference, rgb: Vector3<f64>) -> Matrix3<f64> {
     const STEP: f64 = 1e-5;
     let inside = rgb.map(|v| v.clamp(STEP, 1.0 - STEP));
-    let lab = |rgb: Vector3<f64>| Vector3::from(difference.lab(rgb.into()));
+    let lab = |rgb: Vector3<f64>| Vector3::from(difference.lab(DisplayLinear(rgb.into())));
     let slope = |k: usize| {
         let mut step = Vector3::zeros();
         step[k] = STEP;

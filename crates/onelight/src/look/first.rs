@@ -1,6 +1,6 @@
 use nalgebra::{Matrix3, Vector3};
 use onelight_film::{EXPOSURE_FLOOR, LAYER_NAMES, PerLayer, Stock, Tail};
-use onelight_spectra::{Chromaticity, RgbSpace, TransferCurve};
+use onelight_spectra::{Chromaticity, DisplayLinear, RgbSpace, TransferCurve};
 
 use super::post::PostColour;
 use super::tone_curve::ToneCurve;
@@ -62,12 +62,12 @@ impl FirstApproach {
     /// Scene-linear RGB to display-linear RGB, not clipped. Hard inputs as in [`crate::Look::develop`]; what is negative in
     /// sRGB primaries counts as 0.
     #[must_use]
-    pub fn develop_linear(&self, rgb: [f64; 3]) -> [f64; 3] {
+    pub fn develop_linear(&self, rgb: [f64; 3]) -> DisplayLinear {
         let exposure = self.matrix * Vector3::from(self.scene.clean(rgb)) / MID_GREY;
         let exposure = PerLayer::from(<[f64; 3]>::from(exposure));
         let coded = self.curves.as_ref().zip_map(exposure, |curve, e| curve.at(e.max(EXPOSURE_FLOOR).log10()));
-        let linear = self.post.apply(coded.to_array()).map(|v| TransferCurve::Srgb.decode(v));
-        multiply(&self.to_output, linear)
+        let linear = TransferCurve::Srgb.decode_rgb(self.post.apply(coded.to_array()));
+        DisplayLinear(multiply(&self.to_output, *linear))
     }
 
     /// The pre-colour matrix: sensitivity of layer i at the wavelength of light k, each row summing to 1.

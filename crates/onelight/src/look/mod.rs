@@ -6,7 +6,7 @@ mod tone_curve;
 mod tone_mapped;
 
 use onelight_lut::Lut3d;
-use onelight_spectra::{DisplayDifference, TransferCurve};
+use onelight_spectra::{DisplayDifference, DisplayLinear, TransferCurve};
 use rayon::prelude::*;
 
 pub use first::FirstApproach;
@@ -53,12 +53,12 @@ impl Look {
     /// ±[`crate::SCENE_MAX`].
     #[must_use]
     pub fn develop(&self, rgb: [f64; 3]) -> [f64; 3] {
-        self.develop_linear(rgb).map(|v| self.coding().encode(v))
+        self.coding().encode_rgb(self.develop_linear(rgb))
     }
 
     /// Scene-linear RGB to display-linear RGB. Hard inputs as in [`Look::develop`].
     #[must_use]
-    pub fn develop_linear(&self, rgb: [f64; 3]) -> [f64; 3] {
+    pub fn develop_linear(&self, rgb: [f64; 3]) -> DisplayLinear {
         match self {
             Self::Film(film) => film.develop_linear(rgb),
             Self::First(first) => first.develop_linear(rgb),
@@ -92,7 +92,7 @@ impl Look {
         }
     }
 
-    /// The colour difference between two results, display-linear.
+    /// The colour difference between two results.
     ///
     /// # Errors
     /// None for the built-in spaces.

@@ -1,5 +1,5 @@
 use nalgebra::{Matrix3, Vector3};
-use onelight_spectra::Chromaticity;
+use onelight_spectra::{Chromaticity, DisplayLinear};
 
 use crate::about::About;
 use crate::error::Error;
@@ -37,14 +37,14 @@ impl ToneMapped {
     /// Scene-linear RGB to display-linear RGB, 0 to 1 but for luminance tone mapping, which leaves saturated colours above 1.
     /// NaN counts as 0, each channel is held to ±[`SCENE_MAX`], and what is negative in the output's primaries counts as 0.
     #[must_use]
-    pub fn develop_linear(&self, rgb: [f64; 3]) -> [f64; 3] {
+    pub fn develop_linear(&self, rgb: [f64; 3]) -> DisplayLinear {
         let light = (self.to_output * Vector3::from(rgb.map(finite))).map(|v| v.clamp(0.0, SCENE_MAX));
-        match self.mapping {
+        let shown = match self.mapping {
             ToneMapping::Reinhard => light.map(reinhard),
             ToneMapping::ReinhardLuminance => light / (1.0 + self.luminance.dot(&light)),
             ToneMapping::Clip => light.map(|v| v.min(1.0)),
-        }
-        .into()
+        };
+        DisplayLinear(shown.into())
     }
 
     /// The tone mapping that this is.

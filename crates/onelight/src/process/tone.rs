@@ -6,7 +6,7 @@ use super::spaces::ColourSpaces;
 /// ```
 /// use onelight::{Process, ToneMapping, ToneProcess};
 /// let clipped = Process::from(ToneProcess { mapping: ToneMapping::Clip, ..Default::default() });
-/// assert_eq!(clipped.look()?.develop_linear([0.25, 1.5, -3.0]), [0.25, 1.0, 0.0]);
+/// assert_eq!(clipped.look()?.develop_linear([0.25, 1.5, -3.0]).0, [0.25, 1.0, 0.0]);
 /// # Ok::<(), onelight::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -22,7 +22,7 @@ pub struct ToneProcess {
 /// ```
 /// use onelight::{Process, ToneMapping, ToneProcess};
 /// let clip = Process::from(ToneProcess { mapping: ToneMapping::Clip, ..ToneProcess::default() }).look()?;
-/// assert_eq!(clip.develop_linear([0.25, 0.5, 9.0]), [0.25, 0.5, 1.0]);
+/// assert_eq!(clip.develop_linear([0.25, 0.5, 9.0]).0, [0.25, 0.5, 1.0]);
 /// # Ok::<(), onelight::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]

@@ -9,7 +9,7 @@ use onelight_lut::{
     Decode, Expose, FitSample, FitSettings, IDENTITY, Interpolation, Lut3d, PowerCoding, SceneSampler, StructuredLut,
     StructuredParts, fit,
 };
-use onelight_spectra::TransferCurve;
+use onelight_spectra::{DisplayLinear, TransferCurve};
 use rayon::prelude::*;
 
 use crate::error::Error;
@@ -188,8 +188,10 @@ impl Encode<'_> {
         let difference = self.film.difference()?;
         let to_rgb = self.film.rgb_from_entries();
         let linear = |entry: [f32; 3]| match self.coding {
-            TableCoding::Display => entry.map(|v| self.film.coding().decode(f64::from(v))),
-            TableCoding::Density => (to_rgb * Vector3::from(entry.map(|d| 10f64.powf(-f64::from(d))))).into(),
+            TableCoding::Display => self.film.coding().decode_rgb(entry.map(f64::from)),
+            TableCoding::Density => {
+                DisplayLinear((to_rgb * Vector3::from(entry.map(|d| 10f64.powf(-f64::from(d))))).into())
+            }
         };
         let miss = |i: usize, value: [f32; 3]| difference.between(linear(samples[i].target), linear(value));
         Ok(fit(table, how, &samples, miss, FitSettings::default())?)

@@ -20,7 +20,7 @@ fn largest_step(film: &Reference, values: &[f64], scale: f64) -> f64 {
     let difference = film.difference().unwrap();
     let in_range = |v: &&f64| (0.18 * 2f64.powi(-8)..=0.18 * 16.0).contains(&(**v / scale));
     let first = values.iter().rposition(|v| *v / scale < 0.18 * 2f64.powi(-8)).unwrap_or(0);
-    let shown: Vec<[f64; 3]> = values[first..first + 1]
+    let shown: Vec<_> = values[first..first + 1]
         .iter()
         .chain(values.iter().filter(in_range))
         .map(|v| film.develop_linear([v / scale; 3]))
@@ -36,7 +36,7 @@ fn by_library(film: &Reference, format: BufferFormat, scale: f64) -> f64 {
         .collect();
     values.dedup();
     let difference = film.difference().unwrap();
-    let shown: Vec<[f64; 3]> = values.iter().map(|v| film.develop_linear([v / scale; 3])).collect();
+    let shown: Vec<_> = values.iter().map(|v| film.develop_linear([v / scale; 3])).collect();
     shown.windows(2).map(|pair| difference.between(pair[0], pair[1])).fold(0.0, f64::max)
 }
 

@@ -10,7 +10,7 @@ use crate::{compiled, film, films, films_once, process};
 fn measured(film: &Reference, direct: &DirectForm) -> (f64, f64) {
     let colours: Vec<[f64; 3]> = SceneSampler::with_seed(-10.0..=10.0, 31).unwrap().take(4000).collect();
     let difference = film.difference().unwrap();
-    let fast = |rgb: [f64; 3]| direct.apply(rgb.map(|v| v as f32)).map(|v| film.coding().decode(f64::from(v)));
+    let fast = |rgb: [f64; 3]| film.coding().decode_rgb(direct.apply(rgb.map(|v| v as f32)).map(f64::from));
     let found = deviation(&colours, |rgb| film.develop_linear(rgb), fast, |a, b| difference.between(*a, *b)).unwrap();
     (found.mean, found.max)
 }
@@ -110,7 +110,7 @@ fn tables_are_baked_near_the_film() {
         let at = |t: [f64; 3]| t.map(|t| shaper.decode(t));
         let (fast, exact) = (film.bake(9, at).unwrap(), bake(9, &shaper, |rgb| film.develop(rgb), |_| {}).unwrap());
         let difference = film.difference().unwrap();
-        let linear = |entry: [f32; 3]| entry.map(|v| film.coding().decode(f64::from(v)));
+        let linear = |entry: [f32; 3]| film.coding().decode_rgb(entry.map(f64::from));
         for (fast, exact) in fast.entries().zip(exact.entries()) {
             let miss = difference.between(linear(exact), linear(fast));
             // The probes that choose the grid are not all colours.
@@ -164,7 +164,7 @@ fn any_light_has_a_finite_result() {
                     let fast = direct.apply([r, g, b]);
                     assert!(fast.iter().all(|v| v.is_finite()), "{r} {g} {b}: {fast:?}");
                     let exact = film.develop_linear([r, g, b].map(f64::from));
-                    let miss = difference.between(exact, fast.map(|v| film.coding().decode(f64::from(v))));
+                    let miss = difference.between(exact, film.coding().decode_rgb(fast.map(f64::from)));
                     assert!(miss < 0.2, "{camera} {r} {g} {b}: dE {miss}");
                 }
             }

@@ -30,7 +30,7 @@ fn grey_is_grey_in_neutral_aim() {
         for dyes in [DyeModel::Wedge, DyeModel::Literal] {
             // Every pair can be calibrated, in the talk's literal reading too.
             let film = compiled(&FilmProcess { dyes, ..process.clone() });
-            for v in film.develop_linear([0.18; 3]) {
+            for v in *film.develop_linear([0.18; 3]) {
                 assert!((v - 10f64.powf(-NEUTRAL_DENSITY)).abs() < 1e-6, "{} {dyes:?}: {v}", film.name());
             }
         }
@@ -58,7 +58,7 @@ fn layers_that_inhibit_each_other_leave_greys_where_they_are() {
         let alone = compiled(&process.clone().as_in_the_talk());
         for i in -100..=100 {
             let grey = [0.18 * 2f64.powf(f64::from(i) / 10.0); 3];
-            let pair = lamp.develop_linear(grey).into_iter().zip(alone.develop_linear(grey));
+            let pair = lamp.develop_linear(grey).into_iter().zip(*alone.develop_linear(grey));
             pair.for_each(|(a, b)| assert!((a - b).abs() < 1e-12, "{} {grey:?}: {a} and {b}", lamp.name()));
         }
     }
@@ -89,7 +89,7 @@ fn luminance_never_falls_with_exposure() {
             let film = compiled(&FilmProcess { aim, ..process.clone() });
             let wedge = (-150..=150).map(|i| 0.18 * 2f64.powf(f64::from(i) / 10.0));
             let luminance: Vec<f64> = wedge
-                .map(|v| (y * onelight::spectra::nalgebra::Vector3::from(film.develop_linear([v; 3]))).y)
+                .map(|v| (y * onelight::spectra::nalgebra::Vector3::from(*film.develop_linear([v; 3]))).y)
                 .collect();
             // A hair of rounding where the curves are flat.
             let falls = luminance.windows(2).position(|p| p[1] < p[0] - 1e-12);
@@ -109,7 +109,7 @@ fn largest_hue_step(film: &Reference, stops: i32) -> f64 {
             peak * (1.0 - sector.min(4.0 - sector).clamp(0.0, 1.0))
         })
     };
-    let circle: Vec<[f64; 3]> = (0..=720).map(|i| film.develop_linear(colour(i))).collect();
+    let circle: Vec<_> = (0..=720).map(|i| film.develop_linear(colour(i))).collect();
     circle.windows(2).map(|pair| difference.between(pair[0], pair[1])).fold(0.0, f64::max)
 }
 

@@ -19,7 +19,7 @@ mod wide_gamut;
 use std::ops::RangeInclusive;
 
 use onelight::Reconstruction;
-use onelight::spectra::{Basis, DisplayDifference, RgbSpace, color_checker};
+use onelight::spectra::{Basis, DisplayDifference, DisplayLinear, RgbSpace, color_checker};
 
 pub(crate) use films::{compiled, film, films_once, process};
 
@@ -42,8 +42,8 @@ pub(crate) fn chart(stops: RangeInclusive<i32>) -> Vec<[f64; 3]> {
 /// Mean and largest difference of two maps on colours.
 pub(crate) fn differ(
     colours: &[[f64; 3]],
-    a: impl Fn([f64; 3]) -> [f64; 3],
-    b: impl Fn([f64; 3]) -> [f64; 3],
+    a: impl Fn([f64; 3]) -> DisplayLinear,
+    b: impl Fn([f64; 3]) -> DisplayLinear,
 ) -> (f64, f64) {
     let difference = DisplayDifference::new(&RgbSpace::SRGB).unwrap();
     let all: Vec<f64> = colours.iter().map(|&rgb| difference.between(a(rgb), b(rgb))).collect();

@@ -4,7 +4,7 @@
 use onelight::film::{DyeDensity, LogExposure, PerLayer, SpectralSensitivity, Tail};
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Kelvin, Observer, SpectralShape, planck_radiance};
-use onelight::{FilmProcess, Reference, Stock, Wratten, stock};
+use onelight::{DisplayLinear, FilmProcess, Reference, Stock, Wratten, stock};
 
 pub(crate) type Curve = Box<dyn Fn(f64) -> f64>;
 
@@ -108,7 +108,7 @@ impl Oracle {
     }
 
     /// A colour through all stages: scene-linear to display-linear. `Err` holds printer lights that cannot be.
-    pub(crate) fn compile(&self) -> Result<impl Fn([f64; 3]) -> [f64; 3] + '_, Vector3<f64>> {
+    pub(crate) fn compile(&self) -> Result<impl Fn([f64; 3]) -> DisplayLinear + '_, Vector3<f64>> {
         let own = self.film.mid_grey().map_or(0.0, |h| h.0);
         let normal = match (&self.print, self.grey) {
             (None, Grey::Density(d)) => solve(&self.film_dye, self.neutral(&self.film, d)),
@@ -231,11 +231,11 @@ impl Oracle {
         move |amounts| through(&rows, amounts)
     }
 
-    fn shown(&self, film: &Stock) -> impl Fn([f64; 3]) -> [f64; 3] + use<> {
+    fn shown(&self, film: &Stock) -> impl Fn([f64; 3]) -> DisplayLinear + use<> {
         let rows = self.screen_rows(layers(film.dyes()));
         let lamp = xyz(&self.projector);
         let to_rgb = rgb_from_xyz(&if self.adapted { lamp } else { xyz(&planck(6500.0)) }) / lamp.y;
-        move |amounts| (to_rgb * Vector3::from(through(&rows, amounts))).into()
+        move |amounts| DisplayLinear((to_rgb * Vector3::from(through(&rows, amounts))).into())
     }
 
     fn screen_rows(&self, dyes: [&DyeDensity; 3]) -> Vec<([f64; 3], [f64; 3])> {

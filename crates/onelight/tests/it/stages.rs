@@ -1,6 +1,6 @@
 //! Stage values against an independent computation of the model in float64 at 1 nm (fixtures/reference/stages.json).
 
-use onelight::{Aim, DyeModel, FilmProcess, Printing, White, WideGamut};
+use onelight::{Aim, DisplayLinear, DyeModel, FilmProcess, Printing, White, WideGamut};
 use serde_json::Value;
 
 use crate::{compiled, process};
@@ -45,7 +45,7 @@ fn compare(name: &str, process: &FilmProcess, expected: &Value, inputs: &[[f64; 
             check("print_dye_amounts", print.amounts.map(|a| a.0).to_array());
         }
         let theirs = rows(&expected["rgb_linear"])[i];
-        let miss = difference.between(stages.linear, theirs);
+        let miss = difference.between(stages.linear, DisplayLinear(theirs));
         assert!(miss <= DISPLAY_TOLERANCE, "{name}: {rgb:?} gives {:?} against {theirs:?}: dE {miss}", stages.linear);
         largest = largest.max(miss);
     }
@@ -106,9 +106,10 @@ fn inter_image_effects_agree_stage_by_stage() {
             if camera == "kodak-5207" {
                 check("camera_amounts", stages.amounts.map(|a| a.0).to_array());
             }
-            largest = largest.max(difference.between(stages.linear, rows(&expected["rgb_linear"])[i]));
+            largest = largest.max(difference.between(stages.linear, DisplayLinear(rows(&expected["rgb_linear"])[i])));
             let alone = wedge.develop_linear(rgb);
-            largest_wedge = largest_wedge.max(difference.between(alone, rows(&expected["rgb_linear_wedge"])[i]));
+            largest_wedge =
+                largest_wedge.max(difference.between(alone, DisplayLinear(rows(&expected["rgb_linear_wedge"])[i])));
         }
         println!("{name}: largest dE {largest:.2e}, without the effect {largest_wedge:.2e}");
         assert!(largest <= tolerance, "{name}: dE {largest}");
@@ -132,8 +133,10 @@ fn films_seen_by_their_own_white_agree() {
         let film = compiled(&FilmProcess { gamut: WideGamut::Clip, ..process });
         let difference = film.difference().unwrap();
         let expected = rows(&expected["display_linear"]);
-        let misses =
-            inputs.iter().zip(expected).map(|(&rgb, theirs)| difference.between(film.develop_linear(rgb), theirs));
+        let misses = inputs
+            .iter()
+            .zip(expected)
+            .map(|(&rgb, theirs)| difference.between(film.develop_linear(rgb), DisplayLinear(theirs)));
         let largest = misses.fold(0.0, f64::max);
         println!("{name}: largest dE {largest:.2e}");
         let tolerance = if name == "kodak-ektachrome-100" { ENDS_TOLERANCE } else { DISPLAY_TOLERANCE };

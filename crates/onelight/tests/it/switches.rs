@@ -262,7 +262,7 @@ fn printer() {
     let red = effect("kodak-5207", print(|p| p.points = [1.0, 0.0, 0.0]), |o| o.points = [1.0, 0.0, 0.0]);
     assert!((0.8..2.0).contains(&red.0), "{red:?}");
     let film = compiled(&printed("kodak-5207", |p| p.points = [1.0, 0.0, 0.0]));
-    let [r, g, b] = film.develop_linear([0.18; 3]);
+    let [r, g, b] = *film.develop_linear([0.18; 3]);
     assert!(r < 0.97 * 0.1995 && (g / 0.1995 - 1.0).abs() < 0.03 && (b / 0.1995 - 1.0).abs() < 0.03, "{r} {g} {b}");
 }
 
@@ -298,7 +298,7 @@ fn projectors() {
     let usual = crate::films::talk::film("kodak-5207");
     let (mean, _) = differ(&chart(-2..=2), |rgb| film.develop_linear(rgb), |rgb| usual.develop_linear(rgb));
     assert!((3.0..5.0).contains(&mean), "{mean}");
-    let [r, g, b] = film.develop_linear([0.18; 3]);
+    let [r, g, b] = *film.develop_linear([0.18; 3]);
     assert!(r > 1.05 * g && g > 1.05 * b, "warm: {r} {g} {b}");
 }
 

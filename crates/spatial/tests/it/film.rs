@@ -6,7 +6,7 @@ use onelight_printing::{
     print_target,
 };
 use onelight_spatial::Finish;
-use onelight_spectra::{DisplayDifference, RgbSpace, SpectralShape};
+use onelight_spectra::{DisplayDifference, DisplayLinear, RgbSpace, SpectralShape};
 
 pub(crate) fn stock(id: &str) -> Stock {
     let f = onelight_stocks::find(id).unwrap();
@@ -71,14 +71,14 @@ impl Film {
 impl Finish for Film {
     fn display_linear(&self, amounts: [f64; 3]) -> [f64; 3] {
         let exposure = self.printer.expose(PerLayer::from(amounts).map(DyeAmount));
-        self.projection.rgb(self.print.as_ref().zip_map(exposure, AmountCurve::amount))
+        *self.projection.rgb(self.print.as_ref().zip_map(exposure, AmountCurve::amount))
     }
 
     fn lab(&self, display_linear: [f64; 3]) -> [f64; 3] {
-        self.difference.lab(display_linear)
+        self.difference.lab(DisplayLinear(display_linear))
     }
 
     fn difference(&self, a: [f64; 3], b: [f64; 3]) -> f64 {
-        self.difference.between(a, b)
+        self.difference.between(DisplayLinear(a), DisplayLinear(b))
     }
 }

@@ -1,3 +1,5 @@
+use crate::display_linear::DisplayLinear;
+
 /// How linear light becomes the numbers of a finished picture ([`SceneCurve`](crate::SceneCurve) has those of cameras). Each curve
 /// is odd: `encode(-v) = -encode(v)`, so that colours outside the gamut survive until a file format clips them.
 ///
@@ -42,6 +44,18 @@ impl TransferCurve {
             Self::Gamma24 => v.powf(2.4),
         };
         linear.copysign(coded)
+    }
+
+    /// The three channels of [`TransferCurve::encode`].
+    #[must_use]
+    pub fn encode_rgb(self, rgb: DisplayLinear) -> [f64; 3] {
+        rgb.map(|v| self.encode(v))
+    }
+
+    /// The three channels of [`TransferCurve::decode`].
+    #[must_use]
+    pub fn decode_rgb(self, coded: [f64; 3]) -> DisplayLinear {
+        DisplayLinear(coded.map(|v| self.decode(v)))
     }
 }
 

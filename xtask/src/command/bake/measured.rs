@@ -116,7 +116,6 @@ impl Measured {
 
 fn on_scene(film: &Look, written: &AsWritten, colours: &[[f64; 3]]) -> Result<Deviation> {
     let difference = film.difference()?;
-    let table = |rgb: [f64; 3]| written.apply(rgb.map(|v| v as f32)).map(|v| film.coding().decode(f64::from(v)));
-    let between = |a: &[f64; 3], b: &[f64; 3]| difference.between(*a, *b);
-    deviation(colours, |rgb| film.develop_linear(rgb), table, between).context("the scene")
+    let table = |rgb: [f64; 3]| film.coding().decode_rgb(written.apply(rgb.map(|v| v as f32)).map(f64::from));
+    deviation(colours, |rgb| film.develop_linear(rgb), table, |a, b| difference.between(*a, *b)).context("the scene")
 }

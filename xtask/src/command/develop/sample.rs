@@ -75,7 +75,7 @@ impl<'a> Sample<'a> {
     fn miss(&self, map: impl Fn([f32; 3]) -> [f32; 3] + Sync) -> Result<Difference> {
         let exact = self.film.exact();
         let difference = exact.difference()?;
-        let linear = |coded: [f32; 3]| coded.map(|v| exact.coding().decode(f64::from(v)));
+        let linear = |coded: [f32; 3]| exact.coding().decode_rgb(coded.map(f64::from));
         Ok(Difference::of(&self.kept, |rgb| {
             difference.between(exact.develop_linear(rgb.map(f64::from)), linear(map(rgb)))
         }))

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use anyhow::Result;
-use onelight::spectra::{DisplayDifference, RgbSpace};
+use onelight::spectra::{DisplayDifference, DisplayLinear, RgbSpace};
 use onelight::{Films, Look, ProcessKeys};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -90,7 +90,8 @@ impl Distance {
 /// The difference of each colour of two pictures, CIEDE2000.
 pub(super) fn differences(a: &[[f32; 3]], b: &[[f32; 3]]) -> Result<Vec<f32>> {
     let difference = DisplayDifference::new(&RgbSpace::SRGB)?;
-    let between = |(a, b): (&[f32; 3], &[f32; 3])| difference.between(a.map(f64::from), b.map(f64::from)) as f32;
+    let shown = |rgb: &[f32; 3]| DisplayLinear(rgb.map(f64::from));
+    let between = |(a, b)| difference.between(shown(a), shown(b)) as f32;
     Ok(a.par_iter().zip(b).map(between).collect())
 }
 
