@@ -24,7 +24,8 @@ pub(crate) fn read(paths: &[PathBuf], process: &Process) -> Result<Option<Vec<[f
         if picture.description().source != Source::Exr {
             bail!("{}: --scene takes scene-linear pictures, expected an EXR", path.display());
         }
-        let to_input = to_input_space(picture.description().primaries.as_ref(), process);
+        let own = picture.description().primaries.as_ref().map(space_of);
+        let to_input = to_input_space(own.as_ref(), process);
         let to_input = to_input.with_context(|| path.display().to_string())?;
         colours.extend(some_of(&mut picture, to_input, COLOURS.div_ceil(paths.len()))?);
     }
@@ -36,9 +37,9 @@ pub(crate) fn read(paths: &[PathBuf], process: &Process) -> Result<Option<Vec<[f
 
 /// From a picture's own primaries to those a process takes; `None` where the file names none. Its white is taken for the
 /// scene's white: primaries count, the white point does not.
-pub(crate) fn to_input_space(own: Option<&Chromaticities>, process: &Process) -> Result<Option<Matrix3<f64>>> {
+pub(crate) fn to_input_space(own: Option<&RgbSpace>, process: &Process) -> Result<Option<Matrix3<f64>>> {
     let Some(own) = own else { return Ok(None) };
-    let matrix = space_of(own).to_about(&process.spaces().input_space.space(), Chromaticity::black_body_6500_k());
+    let matrix = own.to_about(&process.spaces().input_space.space(), Chromaticity::black_body_6500_k());
     matrix.map(Some).context("its chromaticities")
 }
 

@@ -8,7 +8,7 @@ use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight_picture::{Limits, Source};
 
 use crate::picture_file::open;
-use crate::scene_colours::to_input_space;
+use crate::scene_colours::{space_of, to_input_space};
 
 /// Scene-linear, sRGB primaries, row by row.
 pub(crate) struct SmallPicture {
@@ -29,7 +29,8 @@ impl SmallPicture {
         if picture.description().source != Source::Exr {
             bail!("{}: {taker}, expected an EXR", path.display());
         }
-        let to_srgb = to_input_space(picture.description().primaries.as_ref(), &Process::default());
+        let own = picture.description().primaries.as_ref().map(space_of);
+        let to_srgb = to_input_space(own.as_ref(), &Process::default());
         let to_srgb = to_srgb.with_context(|| path.display().to_string())?.unwrap_or_else(Matrix3::identity);
         let [width, height] = shrink(from, to);
         // Sums of the finite pixels that fall on each small one, and their number.

@@ -107,6 +107,7 @@ pub mod certify;
 mod direct;
 mod error;
 mod films;
+mod input_coding;
 mod look;
 mod message;
 mod process;
@@ -121,6 +122,7 @@ mod word;
 pub use direct::{DirectSettings, Nodes};
 pub use error::Error;
 pub use films::Films;
+pub use input_coding::InputCoding;
 pub use look::{FirstApproach, Look, PostColour, Texels, ToneCurve, ToneMapped};
 pub use onelight_film as film;
 pub use onelight_film::{

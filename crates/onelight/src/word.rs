@@ -192,7 +192,7 @@ pub(crate) mod text {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Approach, Entries, TableCoding, baked};
+    use crate::{Approach, Entries, InputCoding, TableCoding, baked};
 
     fn complete<T: Word + std::fmt::Debug>() {
         for (value, word, help) in T::ALL {
@@ -225,6 +225,7 @@ mod tests {
         complete::<Storage>();
         complete::<WorkingSpace>();
         complete::<TransferCurve>();
+        complete::<InputCoding>();
         complete::<baked::Form>();
         complete::<baked::ShaperChoice>();
     }

@@ -75,7 +75,7 @@ pub use rgb::{Chromaticity, RgbSpace};
 pub use scene_value::{MID_GREY, SCENE_MAX, finite};
 pub use shape::SpectralShape;
 pub use tabulated::{Extrapolation, TablePoints};
-pub use transfer::{CameraLog, CodedSpace, SceneCurve, TransferCurve};
+pub use transfer::{CameraLog, CodedSpace, HDR_WHITE_CD_M2, SceneCurve, TransferCurve};
 
 /// The examples of README.md, compiled and run with the tests.
 #[cfg(all(doctest, feature = "ciede2000"))]

@@ -99,6 +99,18 @@ impl RgbSpace {
     /// ARRI Wide Gamut 4, the primaries of LogC4 (\[ArriLogC4\]).
     pub const ARRI_WIDE_GAMUT_4: Self =
         Self::new([(0.7347, 0.2653), (0.1424, 0.8576), (0.0991, -0.0308)], Chromaticity::D65);
+    /// ARRI Wide Gamut 3, the primaries of LogC3 (\[ArriLogC3\]).
+    pub const ARRI_WIDE_GAMUT_3: Self =
+        Self::new([(0.684, 0.313), (0.221, 0.848), (0.0861, -0.102)], Chromaticity::D65);
+    /// Panasonic V-Gamut, the primaries of V-Log (\[PanasonicVLog\]).
+    pub const V_GAMUT: Self = Self::new([(0.730, 0.280), (0.165, 0.840), (0.100, -0.030)], Chromaticity::D65);
+    /// Canon Cinema Gamut, the primaries of Canon Log 2 and 3 (\[CanonLog\]).
+    pub const CINEMA_GAMUT: Self = Self::new([(0.740, 0.270), (0.170, 1.140), (0.080, -0.100)], Chromaticity::D65);
+    /// REDWideGamutRGB, the primaries of Log3G10 (\[RedLog3G10\]).
+    pub const RED_WIDE_GAMUT: Self =
+        Self::new([(0.780_308, 0.304_253), (0.121_595, 1.493_994), (0.095_612, -0.084_589)], Chromaticity::D65);
+    /// DJI D-Gamut, the primaries of D-Log (\[DjiDLog\]).
+    pub const D_GAMUT: Self = Self::new([(0.71, 0.31), (0.21, 0.88), (0.09, -0.08)], Chromaticity::D65);
     /// Sony S-Gamut3, wider than the Cine variant (\[SonySLog3\]).
     pub const S_GAMUT3: Self = Self::new([(0.730, 0.280), (0.140, 0.855), (0.100, -0.050)], Chromaticity::D65);
     /// Sony S-Gamut3.Cine, the one that usually goes with S-Log3 (\[SonySLog3\]).
@@ -164,7 +176,7 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    const ALL: [RgbSpace; 9] = [
+    const ALL: [RgbSpace; 14] = [
         RgbSpace::SRGB,
         RgbSpace::DISPLAY_P3,
         RgbSpace::REC2020,
@@ -174,6 +186,11 @@ mod tests {
         RgbSpace::S_GAMUT3,
         RgbSpace::S_GAMUT3_CINE,
         RgbSpace::DAVINCI_WIDE_GAMUT,
+        RgbSpace::ARRI_WIDE_GAMUT_3,
+        RgbSpace::V_GAMUT,
+        RgbSpace::CINEMA_GAMUT,
+        RgbSpace::RED_WIDE_GAMUT,
+        RgbSpace::D_GAMUT,
     ];
 
     #[test]
@@ -240,6 +257,33 @@ mod tests {
         ];
         for (space, rows) in published {
             assert_relative_eq!(space.to_xyz().unwrap(), Matrix3::from_row_slice(&rows), epsilon = 6e-9);
+        }
+        // [ArriLogC3], [PanasonicVLog], [RedLog3G10], [DjiDLog] to the digits that they print.
+        let rounded = [
+            (RgbSpace::ARRI_WIDE_GAMUT_3, 5.1e-7, [
+                0.638008, 0.214704, 0.097744,
+                0.291954, 0.823841, -0.115795,
+                0.002798, -0.067034, 1.153294,
+            ]),
+            (RgbSpace::V_GAMUT, 5.1e-7, [
+                0.679644, 0.152211, 0.118600,
+                0.260686, 0.774894, -0.035580,
+                -0.009310, -0.004612, 1.102980,
+            ]),
+            (RgbSpace::RED_WIDE_GAMUT, 5.1e-7, [
+                0.735275, 0.068609, 0.146571,
+                0.286694, 0.842979, -0.129673,
+                -0.079681, -0.347343, 1.516082,
+            ]),
+            // Its last digits are moved so that rows sum to a white of four digits.
+            (RgbSpace::D_GAMUT, 2e-4, [
+                0.6482, 0.1940, 0.1082,
+                0.2830, 0.8132, -0.0962,
+                -0.0183, -0.0832, 1.1903,
+            ]),
+        ];
+        for (space, digits, rows) in rounded {
+            assert_relative_eq!(space.to_xyz().unwrap(), Matrix3::from_row_slice(&rows), epsilon = digits);
         }
     }
 

@@ -10,6 +10,7 @@ mod corpora;
 mod damaged;
 #[cfg(target_os = "linux")]
 mod hostile;
+mod looks;
 mod pictures;
 mod program;
 mod report;

@@ -43,14 +43,9 @@ enum CodingCurve {
 const BEVY_STOPS: (f64, f64) = (-11.0, 12.0);
 
 impl Coordinate {
-    /// A published coding with its own primaries; `word` is what a recipe calls it, `primaries` what people do.
-    pub(super) fn of_curve(
-        word: &'static str,
-        curve: SceneCurve,
-        primaries: &'static str,
-        spaces: &ColourSpaces,
-    ) -> Result<Self, Error> {
-        Self::new([word, curve.name(), primaries], CodingCurve::Scene(curve), &curve.space(), spaces)
+    /// A published coding with its own primaries; `word` is what a recipe calls it.
+    pub(super) fn of_curve(word: &'static str, curve: SceneCurve, spaces: &ColourSpaces) -> Result<Self, Error> {
+        Self::new([word, curve.name(), curve.space_name()], CodingCurve::Scene(curve), &curve.space(), spaces)
     }
 
     /// The coordinate of Bevy's tone-mapping tables, in the look's input primaries.
@@ -153,7 +148,7 @@ mod tests {
     fn codings_go_there_and_back() {
         let spaces = ColourSpaces { input_space: crate::WorkingSpace::AcesCg, ..Default::default() };
         let mut all: Vec<Coordinate> =
-            SceneCurve::ALL.iter().map(|curve| Coordinate::of_curve("", *curve, "", &spaces).unwrap()).collect();
+            SceneCurve::ALL.iter().map(|curve| Coordinate::of_curve("", *curve, &spaces).unwrap()).collect();
         all.push(Coordinate::bevy(&spaces).unwrap());
         for coordinate in all {
             for rgb in [[0.18; 3], [0.5, 0.2, 0.1], [0.02, 0.05, 0.04]] {
@@ -166,7 +161,9 @@ mod tests {
             for beyond in [[1e5; 3], [-0.5, 1e6, 0.2]] {
                 let held = coordinate.held(beyond);
                 let codes = coordinate.encode(held);
-                assert!(codes.iter().all(|v| (-1e-9..=1.0 + 1e-9).contains(v)), "{}: {codes:?}", coordinate.name);
+                // HLG and N-Log begin with roots: rounding of light by 1e-17 is 1e-9 and 1e-6 of code there.
+                let slack = if coordinate.name == "N-Log" { 1e-5 } else { 1e-8 };
+                assert!(codes.iter().all(|v| (-slack..=1.0 + slack).contains(v)), "{}: {codes:?}", coordinate.name);
             }
         }
     }

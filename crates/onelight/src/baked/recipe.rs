@@ -51,10 +51,34 @@ pub enum ShaperChoice {
     Slog3,
     /// It takes DaVinci Intermediate (DaVinci Wide Gamut).
     Intermediate,
-    /// It takes PQ (BT.2020), scene 1.0 at 100 cd/m^2.
+    /// It takes ARRI LogC3 at exposure index 800 (ARRI Wide Gamut 3).
+    Logc3,
+    /// It takes Panasonic V-Log (V-Gamut).
+    Vlog,
+    /// It takes Canon Log 2 (Cinema Gamut).
+    Clog2,
+    /// It takes Canon Log 3 (Cinema Gamut).
+    Clog3,
+    /// It takes Fujifilm F-Log (F-Gamut, which is BT.2020's).
+    Flog,
+    /// It takes Fujifilm F-Log2 (F-Gamut, which is BT.2020's).
+    Flog2,
+    /// It takes Nikon N-Log (N-Gamut, which is BT.2020's).
+    Nlog,
+    /// It takes RED Log3G10 (`REDWideGamutRGB`).
+    Log3g10,
+    /// It takes Apple Log (BT.2020).
+    AppleLog,
+    /// It takes DJI D-Log (D-Gamut).
+    Dlog,
+    /// It takes HLG (BT.2020), scene 1.0 at 75 %.
+    Hlg,
+    /// It takes PQ (BT.2020), scene 1.0 at 203 cd/m^2.
     Pq,
     /// It takes sRGB-coded colour: nothing brighter than white.
     Srgb,
+    /// It takes video as a studio display shows it, a power of 2.4 (BT.709 primaries): nothing brighter than white.
+    Rec709Display,
     /// It takes log2(x / 0.18) from -11 to +12: Bevy's tone-mapping tables, with linear output.
     Bevy,
 }
@@ -84,8 +108,20 @@ words! {
         ShaperChoice::Logc4 = "logc4" "It takes ARRI LogC4 (ARRI Wide Gamut 4)",
         ShaperChoice::Slog3 = "slog3" "It takes Sony S-Log3 (S-Gamut3.Cine)",
         ShaperChoice::Intermediate = "intermediate" "It takes DaVinci Intermediate (DaVinci Wide Gamut)",
-        ShaperChoice::Pq = "pq" "It takes PQ (BT.2020), scene 1.0 at 100 cd/m^2",
+        ShaperChoice::Logc3 = "logc3" "It takes ARRI LogC3, EI 800 (ARRI Wide Gamut 3)",
+        ShaperChoice::Vlog = "vlog" "It takes Panasonic V-Log (V-Gamut)",
+        ShaperChoice::Clog2 = "clog2" "It takes Canon Log 2 (Cinema Gamut)",
+        ShaperChoice::Clog3 = "clog3" "It takes Canon Log 3 (Cinema Gamut)",
+        ShaperChoice::Flog = "flog" "It takes Fujifilm F-Log (F-Gamut)",
+        ShaperChoice::Flog2 = "flog2" "It takes Fujifilm F-Log2 (F-Gamut)",
+        ShaperChoice::Nlog = "nlog" "It takes Nikon N-Log (N-Gamut)",
+        ShaperChoice::Log3g10 = "log3g10" "It takes RED Log3G10 (REDWideGamutRGB)",
+        ShaperChoice::AppleLog = "apple-log" "It takes Apple Log (BT.2020)",
+        ShaperChoice::Dlog = "dlog" "It takes DJI D-Log (D-Gamut)",
+        ShaperChoice::Hlg = "hlg" "It takes HLG (BT.2020), scene 1.0 at 75 %",
+        ShaperChoice::Pq = "pq" "It takes PQ (BT.2020), scene 1.0 at 203 cd/m^2",
         ShaperChoice::Srgb = "srgb" "It takes sRGB-coded colour: nothing brighter than white",
+        ShaperChoice::Rec709Display = "rec709-display" "It takes video as a display of gamma 2.4 shows it: nothing brighter than white",
         ShaperChoice::Bevy = "bevy" "It takes log2(x / 0.18) from -11 to +12: Bevy's tone-mapping tables, with linear output";
 }
 
@@ -99,17 +135,29 @@ impl ShaperChoice {
 
     /// The coding that a table takes instead of scene-linear light.
     pub(super) fn coordinate(self, spaces: &ColourSpaces) -> Result<Option<Coordinate>, Error> {
-        let (curve, primaries) = match self {
+        let curve = match self {
             Self::Log2 | Self::Gotanda => return Ok(None),
             Self::Bevy => return Coordinate::bevy(spaces).map(Some),
-            Self::Acescct => (SceneCurve::AcesCct, "AP1"),
-            Self::Logc4 => (SceneCurve::LogC4, "ARRI Wide Gamut 4"),
-            Self::Slog3 => (SceneCurve::SLog3, "S-Gamut3.Cine"),
-            Self::Intermediate => (SceneCurve::DaVinciIntermediate, "DaVinci Wide Gamut"),
-            Self::Pq => (SceneCurve::Pq, "BT.2020"),
-            Self::Srgb => (SceneCurve::Srgb, "sRGB"),
+            Self::Acescct => SceneCurve::AcesCct,
+            Self::Logc4 => SceneCurve::LogC4,
+            Self::Slog3 => SceneCurve::SLog3,
+            Self::Intermediate => SceneCurve::DaVinciIntermediate,
+            Self::Logc3 => SceneCurve::LogC3,
+            Self::Vlog => SceneCurve::VLog,
+            Self::Clog2 => SceneCurve::CLog2,
+            Self::Clog3 => SceneCurve::CLog3,
+            Self::Flog => SceneCurve::FLog,
+            Self::Flog2 => SceneCurve::FLog2,
+            Self::Nlog => SceneCurve::NLog,
+            Self::Log3g10 => SceneCurve::Log3G10,
+            Self::AppleLog => SceneCurve::AppleLog,
+            Self::Dlog => SceneCurve::DLog,
+            Self::Hlg => SceneCurve::Hlg,
+            Self::Pq => SceneCurve::Pq,
+            Self::Srgb => SceneCurve::Srgb,
+            Self::Rec709Display => SceneCurve::Rec709Display,
         };
-        Coordinate::of_curve(self.word(), curve, primaries, spaces).map(Some)
+        Coordinate::of_curve(self.word(), curve, spaces).map(Some)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
-use onelight::TransferCurve;
+use onelight::InputCoding;
 use onelight_picture::{Limits, PartChoice, Selection};
 
 use crate::words::words;
@@ -18,10 +18,10 @@ pub(crate) struct InputArguments {
     /// Part of an EXR, by its number from 1 or its name
     #[arg(long, value_name = "N|NAME", value_parser = part)]
     part: Option<PartChoice>,
-    /// Transfer curve of a TIFF, PNG, JPEG or Radiance picture [default: what the file says, else srgb for integers, linear
-    /// for floats]
-    #[arg(long, value_parser = words::<TransferCurve>())]
-    input_coding: Option<TransferCurve>,
+    /// How the picture's numbers are coded; a camera's log brings its primaries unless --input-space names others [default: what
+    /// the file says, else srgb for integers, linear for floats]
+    #[arg(long, value_parser = words::<InputCoding>())]
+    input_coding: Option<InputCoding>,
     /// What the white of the picture's space is [default: relative; absolute for XYZ]
     #[arg(long)]
     input_white: Option<InputWhite>,
@@ -38,8 +38,8 @@ pub(crate) struct InputArguments {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct InputSettings {
     pub(super) selection: Selection,
-    /// Transfer curve, where it was named.
-    pub(super) coding: Option<TransferCurve>,
+    /// How the numbers are coded, where it was named.
+    pub(super) coding: Option<InputCoding>,
     pub(super) primaries: InputPrimaries,
     pub(super) white: Option<InputWhite>,
     pub(super) background: Option<Background>,

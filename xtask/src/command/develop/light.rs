@@ -3,7 +3,7 @@
 use anyhow::{Context, Result};
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Chromaticity, RgbSpace};
-use onelight::{Process, TransferCurve, Word};
+use onelight::{InputCoding, Process, TransferCurve, Word};
 use onelight_picture::{Band, Chromaticities, Description, RowMut, Source, TiffSamples, Transfer, Tristimulus};
 use rayon::prelude::*;
 
@@ -30,7 +30,7 @@ pub(super) struct Light {
 /// How values are coded.
 #[derive(Debug, Clone, PartialEq)]
 enum Coding {
-    Named(TransferCurve),
+    Named(InputCoding),
     OfFile(Transfer),
 }
 
@@ -117,7 +117,7 @@ impl Light {
 
 impl Coding {
     fn is_linear(&self) -> bool {
-        matches!(self, Self::Named(TransferCurve::Linear) | Self::OfFile(Transfer::Linear))
+        matches!(self, Self::Named(InputCoding::Display(TransferCurve::Linear)) | Self::OfFile(Transfer::Linear))
     }
 
     fn light(&self, rgb: [f32; 3]) -> [f32; 3] {
@@ -136,20 +136,25 @@ fn to_input_space(
     notes: &mut Vec<String>,
 ) -> Result<Option<Matrix3<f64>>> {
     let look = process.spaces().input_space;
-    let of_file = picture.primaries.filter(|_| input.primaries == InputPrimaries::OfFile);
+    let named = input.coding.filter(|coding| coding.space().is_some() && input.primaries == InputPrimaries::OfFile);
+    let of_file = picture.primaries.filter(|_| input.primaries == InputPrimaries::OfFile && named.is_none());
     if picture.primaries.is_some() && of_file.is_none() {
-        let space = look.word();
-        notes.push(format!("the file's own chromaticities give way to --input-space {space}"));
+        let by = match named {
+            Some(coding) => format!("--input-coding {}", coding.word()),
+            None => format!("--input-space {}", look.word()),
+        };
+        notes.push(format!("the file's own chromaticities give way to {by}"));
     }
+    let own = named.and_then(InputCoding::space).or_else(|| of_file.as_ref().map(scene_colours::space_of));
     let is_xyz = of_file.is_some() && picture.tristimulus == Tristimulus::Xyz;
     let usual = if is_xyz { InputWhite::Absolute } else { InputWhite::Relative };
     match input.white.unwrap_or(usual) {
         InputWhite::Relative => {
             let way_out = "its chromaticities make no colour space, expected --input-space with the one that is meant";
-            scene_colours::to_input_space(of_file.as_ref(), process).context(way_out)
+            scene_colours::to_input_space(own.as_ref(), process).context(way_out)
         }
         InputWhite::Absolute => {
-            let own = of_file.map_or(look.space(), |own| scene_colours::space_of(&own));
+            let own = own.unwrap_or(look.space());
             let to_srgb = RgbSpace::SRGB.from_xyz()? * own.to_xyz().context("its chromaticities")?;
             let matrix = RgbSpace::SRGB.to_about(&look.space(), Chromaticity::black_body_6500_k())? * to_srgb;
             Ok(Some(matrix))
@@ -158,28 +163,31 @@ fn to_input_space(
 }
 
 /// The transfer curve to undo: the command line's, else the file's, else what is usual.
-fn coding_of(picture: &Description, named: Option<TransferCurve>, notes: &mut Vec<String>) -> Coding {
+fn coding_of(picture: &Description, named: Option<InputCoding>, notes: &mut Vec<String>) -> Coding {
     let floats =
         matches!(picture.source, Source::Exr | Source::RadianceHdr | Source::Tiff { samples: TiffSamples::Float, .. });
     match (named, &picture.transfer) {
-        (Some(_), None) if picture.source == Source::Exr => {
+        (Some(coding), None) if picture.source == Source::Exr && coding.space().is_none() => {
             notes.push("an EXR holds linear light: --input-coding is not used".to_owned());
-            Coding::Named(TransferCurve::Linear)
+            Coding::Named(InputCoding::Display(TransferCurve::Linear))
         }
         (Some(coding), said) => {
             if said.is_some() && picture.source != Source::RadianceHdr {
                 notes.push(format!("the file's own coding gives way to --input-coding {}", coding.word()));
             }
+            if coding.space().is_some() {
+                notes.push(format!("read as {}, full range", coding.name()));
+            }
             Coding::Named(coding)
         }
         (None, Some(transfer)) => Coding::OfFile(transfer.clone()),
-        (None, None) if floats => Coding::Named(TransferCurve::Linear),
+        (None, None) if floats => Coding::Named(InputCoding::Display(TransferCurve::Linear)),
         (None, None) => {
             notes.push(
                 "the file does not say how its integers are coded: taken for sRGB (--input-coding says otherwise)"
                     .to_owned(),
             );
-            Coding::Named(TransferCurve::Srgb)
+            Coding::Named(InputCoding::Display(TransferCurve::Srgb))
         }
     }
 }
@@ -196,7 +204,9 @@ fn said_by_file(picture: &Description, input: &InputSettings) -> Option<String> 
         Transfer::Hlg => "HLG-coded, white at 75 %".to_owned(),
         Transfer::Curves(_) => "coded by curves of its own".to_owned(),
     });
-    let primaries = picture.primaries.filter(|_| input.primaries == InputPrimaries::OfFile).map(|own| {
+    let of_file =
+        input.primaries == InputPrimaries::OfFile && input.coding.is_none_or(|coding| coding.space().is_none());
+    let primaries = picture.primaries.filter(|_| of_file).map(|own| {
         let named = [
             (Chromaticities::BT709, "sRGB primaries"),
             (Chromaticities::P3_D65, "Display P3 primaries"),

@@ -1,0 +1,63 @@
+//! Looks that people ask for: camera logs that come in.
+
+use std::fs;
+use std::io::Cursor;
+use std::path::Path;
+
+use onelight_picture::{Limits, Picture, Source};
+
+use crate::program::done;
+
+/// Writes an EXR of six equal pixels.
+fn flat(folder: &Path, name: &str, rgb: [f32; 3]) {
+    let mut bytes = Cursor::new(Vec::new());
+    Picture::opaque(3, 2, vec![rgb; 6], Source::Exr).write_exr(&mut bytes, &[]).unwrap();
+    fs::write(folder.join(name), bytes.into_inner()).unwrap();
+}
+
+fn first_pixel(folder: &Path, name: &str) -> [f32; 3] {
+    Picture::read(fs::File::open(folder.join(name)).unwrap(), name, Limits::default()).unwrap().rgb[0]
+}
+
+/// Codes of sRGB light (0.4, 0.2, 0.1) as colour-science 0.4.7 gives them: curves and primaries.
+#[test]
+fn camera_logs_become_light() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    for (coding, codes) in [
+        ("logc3", [0.44927, 0.39671, 0.35018]),
+        ("vlog", [0.47756, 0.43661, 0.38174]),
+        ("clog2", [0.44943, 0.40895, 0.36816]),
+        ("log3g10", [0.37935, 0.34272, 0.31422]),
+        ("dlog", [0.45785, 0.40721, 0.36074]),
+        ("apple-log", [0.55691, 0.50788, 0.43521]),
+        ("nlog", [0.43849, 0.38367, 0.31445]),
+    ] {
+        flat(folder, "log.exr", codes);
+        let said = done(
+            folder,
+            &[
+                "develop",
+                "log.exr",
+                "light.exr",
+                "--approach",
+                "clip",
+                "--input-coding",
+                coding,
+                "--input-white",
+                "absolute",
+            ],
+        );
+        assert!(said.contains("read as ") && said.contains("full range"), "{said}");
+        let light = first_pixel(folder, "light.exr");
+        // Codes have five digits.
+        for (found, expected) in light.into_iter().zip([0.4, 0.2, 0.1]) {
+            assert!((found - expected).abs() < 1e-3, "{coding}: {light:?}");
+        }
+    }
+    // The primaries of --input-space come first.
+    flat(folder, "grey.exr", [0.391_007; 3]);
+    let line = ["develop", "grey.exr", "light.exr", "--approach", "clip", "--input-coding", "logc3"];
+    done(folder, &[&line[..], &["--input-space", "rec2020"]].concat());
+    assert!((first_pixel(folder, "light.exr")[1] - 0.18).abs() < 1e-5);
+}
