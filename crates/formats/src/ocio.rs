@@ -37,6 +37,17 @@ pub struct OcioConfig {
 }
 
 /// An RGB space of a configuration.
+///
+/// ```
+/// use onelight_formats::{OcioConfig, OcioSpace, OcioView};
+/// use onelight_lut::PowerCoding;
+/// let space = |name| OcioSpace { name, to_xyz: [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]], coding: PowerCoding::LINEAR };
+/// let config = OcioConfig::new(space("Linear Rec.709"), space("sRGB")).with_view(OcioView::of_clf("Portra on 2383", "portra.clf"));
+/// let mut text = Vec::new();
+/// config.write(&mut text)?;
+/// assert!(String::from_utf8_lossy(&text).contains("Linear Rec.709"));
+/// # Ok::<(), onelight_formats::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OcioSpace {
     /// What the programs call it.
@@ -48,6 +59,17 @@ pub struct OcioSpace {
 }
 
 /// A look in a file beside the configuration, which a program lists by its name.
+///
+/// ```
+/// use onelight_formats::{OcioConfig, OcioSpace, OcioView};
+/// use onelight_lut::PowerCoding;
+/// let space = |name| OcioSpace { name, to_xyz: [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]], coding: PowerCoding::LINEAR };
+/// let config = OcioConfig::new(space("Linear Rec.709"), space("sRGB")).with_view(OcioView::of_clf("Portra on 2383", "portra.clf"));
+/// let mut text = Vec::new();
+/// config.write(&mut text)?;
+/// assert!(String::from_utf8_lossy(&text).contains("portra.clf"));
+/// # Ok::<(), onelight_formats::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct OcioView {
     name: String,

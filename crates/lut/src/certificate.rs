@@ -25,6 +25,18 @@ use crate::deviation::Deviation;
 use crate::error::Error;
 
 /// What [`certify`] compares and how. Any closures do; they are called from all threads.
+///
+/// ```
+/// use onelight_lut::Maps;
+/// let film = |rgb: [f64; 3]| rgb.map(|u| u / (u + 0.18));
+/// let maps = Maps {
+///     reference: film,
+///     candidate: |rgb| film(rgb).map(|v| (v * 255.0).round() / 255.0),
+///     difference: |a: &[f64; 3], b: &[f64; 3]| (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max),
+///     luminance: |v: &[f64; 3]| (v[0] + v[1] + v[2]) / 3.0,
+/// };
+/// assert!((maps.difference)(&film([0.18; 3]), &(maps.candidate)([0.18; 3])) < 0.5 / 255.0);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Maps<R, C, D, L> {
     /// The map to be reproduced, `Fn([f64; 3]) -> [f64; 3]`: scene-linear RGB to display-linear RGB, 1 being the
@@ -44,6 +56,24 @@ pub struct Maps<R, C, D, L> {
 /// Differences are in the unit of [`Maps::difference`], colours scene-linear RGB, stops relative to mid grey
 /// ([`SceneSampler::MID_GREY`](crate::SceneSampler::MID_GREY)). The names of fields are those of the
 /// serialised form.
+///
+/// ```
+/// # use onelight_lut::{ColourSet, Maps, Samples, SamplingLaw, Search, certify};
+/// # let film = |rgb: [f64; 3]| rgb.map(|u| u / (u + 0.18));
+/// # let skin = ColourSet::new("skin", [("light", [0.56, 0.39, 0.31])])?;
+/// # let samples = Samples::new(&SamplingLaw { count: 1 << 8, ..SamplingLaw::default() }, &[skin], film, |_| {})?;
+/// # let maps = Maps {
+/// #     reference: film,
+/// #     candidate: |rgb| film(rgb).map(|v| (v * 255.0).round() / 255.0),
+/// #     difference: |a: &[f64; 3], b: &[f64; 3]| (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max),
+/// #     luminance: |v: &[f64; 3]| (v[0] + v[1] + v[2]) / 3.0,
+/// # };
+/// # let certificate = certify(&samples, &maps, Search::SamplesOnly, |_| {})?;
+/// // A film rounded to 8 bits, of which the certificate says by how much.
+/// assert!(certificate.max_found <= 0.501 / 255.0 && !certificate.passed(0.4 / 255.0));
+/// assert!(certificate.bands.iter().all(|band| band.deviation.mean <= certificate.headline_mean));
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]

@@ -5,6 +5,13 @@ use crate::interpolate::{Interpolation, Weights, weights};
 use crate::lut3d::Lut3d;
 
 /// A place in a table and the value it should read there: what [`fit`] takes, with an example there.
+///
+/// ```
+/// use onelight_lut::FitSample;
+/// // A table over square roots should read light there.
+/// let sample = |light: f32| FitSample { coordinates: [light.sqrt(); 3], target: [light; 3] };
+/// assert_eq!(sample(0.25).coordinates, [0.5; 3]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FitSample {
     /// Where the table is read: coordinates from 0 to 1.

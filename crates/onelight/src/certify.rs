@@ -50,6 +50,17 @@ impl Default for CertifySettings {
 }
 
 /// The colours that a map can take.
+///
+/// ```
+/// use onelight::certify::{Certifier, CertifySettings, Gamut};
+/// # use onelight::lut::{SamplingLaw, Search};
+/// # let settings = CertifySettings { law: SamplingLaw { count: 1 << 8, ..SamplingLaw::default() }, search: Search::SamplesOnly };
+/// let look = onelight::Process::default().look()?;
+/// let exact = |rgb: [f32; 3]| look.develop(rgb.map(f64::from)).map(|v| v as f32);
+/// let report = Certifier::new(&look)?.report(exact, Gamut::Srgb, &settings)?;
+/// assert!(report.rec2020.is_none());
+/// # Ok::<(), onelight::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Gamut {
     /// Those within sRGB's primaries: a plain table holds what is inside of its own.
@@ -59,6 +70,18 @@ pub enum Gamut {
 }
 
 /// What was found of a baked look; CIEDE2000 from the exact one. As text it is a few lines for people.
+///
+/// ```
+/// # use onelight::baked::{Form, Recipe};
+/// # use onelight::certify::CertifySettings;
+/// # use onelight::lut::{SamplingLaw, Search};
+/// # let settings = CertifySettings { law: SamplingLaw { count: 1 << 8, ..SamplingLaw::default() }, search: Search::SamplesOnly };
+/// let look = onelight::Process::default().look()?;
+/// let found = look.certify(&look.baked(&Recipe::cube(17))?, &settings)?;
+/// println!("{found}");
+/// assert!(found.srgb.overall.mean < 0.5 && found.rec2020.is_none());
+/// # Ok::<(), onelight::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Certified {
@@ -71,6 +94,15 @@ pub struct Certified {
 }
 
 /// The tint that a look gives to greys: chroma C* of CIELAB.
+///
+/// ```
+/// use onelight::certify::Certifier;
+/// let look = onelight::Process::default().look()?;
+/// let tint = Certifier::new(&look)?.tint();
+/// assert!(tint.mid_grey < 1e-6, "neutral aim");
+/// assert!(tint.largest > 3.0 && tint.stops > 1.0, "bright greys keep the film's tint");
+/// # Ok::<(), onelight::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Tint {
     /// C* of an 18 % grey card.
@@ -82,6 +114,18 @@ pub struct Tint {
 }
 
 /// Mean and largest difference over a range of exposures.
+///
+/// ```
+/// # use onelight::baked::Recipe;
+/// # use onelight::certify::{CertifySettings, to_six_stops};
+/// # use onelight::lut::{SamplingLaw, Search};
+/// # let settings = CertifySettings { law: SamplingLaw { count: 1 << 8, ..SamplingLaw::default() }, search: Search::SamplesOnly };
+/// let look = onelight::Process::default().look()?;
+/// let all = look.certify(&look.baked(&Recipe::cube(17))?, &settings)?.srgb;
+/// let usual = to_six_stops(&all);
+/// assert!(usual.mean <= usual.max && usual.max <= all.max_found);
+/// # Ok::<(), onelight::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeanAndMax {
     /// Mean difference of all colours, CIEDE2000.

@@ -30,6 +30,14 @@ pub enum Transfer {
 }
 
 /// A curve of an ICC profile, from 0..1 to 0..1.
+///
+/// ```
+/// use onelight_picture::Curve;
+/// let squares = Curve::Table(vec![0.0, 0.25, 1.0]);
+/// assert_eq!(squares.value(0.25), 0.125);
+/// let power = Curve::Parametric([2.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+/// assert_eq!(power.value(0.5), 0.25);
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub enum Curve {
     /// Values at equal steps, between which lines are drawn: at least two.

@@ -48,6 +48,13 @@ pub enum FilmFormat {
 }
 
 /// A width between 1 and 500 mm.
+///
+/// ```
+/// use onelight_spatial::FilmFormat;
+/// assert_eq!(FilmFormat::width(24.9)?.width_mm(), 24.9);
+/// assert!(FilmFormat::width(0.0).is_err() && FilmFormat::width(501.0).is_err());
+/// # Ok::<(), onelight_spatial::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Millimetres(f64);
 

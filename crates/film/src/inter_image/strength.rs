@@ -30,6 +30,13 @@ pub struct InterImage {
 }
 
 /// Where the strength of a stock's inter-image effect is from.
+///
+/// ```
+/// use onelight_film::{InterImage, InterImageOrigin, StockKind};
+/// let origin = |kind| InterImage::of_kind(kind).map(|(_, origin)| origin);
+/// assert_eq!(origin(StockKind::Negative), Some(InterImageOrigin::Transferred));
+/// assert_eq!(origin(StockKind::Reversal), Some(InterImageOrigin::Assumed));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum InterImageOrigin {

@@ -4,6 +4,24 @@ use crate::error::Error;
 use crate::scene_sampler::SceneSampler;
 
 /// The difference over the drawn colours of one range of exposure.
+///
+/// ```
+/// # use onelight_lut::{ColourSet, Maps, Samples, SamplingLaw, Search, certify};
+/// # let film = |rgb: [f64; 3]| rgb.map(|u| u / (u + 0.18));
+/// # let skin = ColourSet::new("skin", [("light", [0.56, 0.39, 0.31])])?;
+/// # let samples = Samples::new(&SamplingLaw { count: 1 << 8, ..SamplingLaw::default() }, &[skin], film, |_| {})?;
+/// # let maps = Maps {
+/// #     reference: film,
+/// #     candidate: |rgb| film(rgb).map(|v| (v * 255.0).round() / 255.0),
+/// #     difference: |a: &[f64; 3], b: &[f64; 3]| (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max),
+/// #     luminance: |v: &[f64; 3]| (v[0] + v[1] + v[2]) / 3.0,
+/// # };
+/// # let certificate = certify(&samples, &maps, Search::SamplesOnly, |_| {})?;
+/// let darkest = &certificate.bands[0];
+/// println!("{} to {} stops: {}", darkest.stops[0], darkest.stops[1], darkest.deviation.mean);
+/// assert!(darkest.stops[0] < darkest.stops[1]);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]

@@ -51,6 +51,24 @@ impl ColourSet {
 }
 
 /// The difference over a [`ColourSet`], each colour at -4 to +4 stops by 1.
+///
+/// ```
+/// # use onelight_lut::{ColourSet, Maps, Samples, SamplingLaw, Search, certify};
+/// # let film = |rgb: [f64; 3]| rgb.map(|u| u / (u + 0.18));
+/// # let skin = ColourSet::new("skin", [("light", [0.56, 0.39, 0.31])])?;
+/// # let samples = Samples::new(&SamplingLaw { count: 1 << 8, ..SamplingLaw::default() }, &[skin], film, |_| {})?;
+/// # let maps = Maps {
+/// #     reference: film,
+/// #     candidate: |rgb| film(rgb).map(|v| (v * 255.0).round() / 255.0),
+/// #     difference: |a: &[f64; 3], b: &[f64; 3]| (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max),
+/// #     luminance: |v: &[f64; 3]| (v[0] + v[1] + v[2]) / 3.0,
+/// # };
+/// # let certificate = certify(&samples, &maps, Search::SamplesOnly, |_| {})?;
+/// let skin = &certificate.colour_sets[0];
+/// assert_eq!((skin.name.as_str(), skin.worst_name.as_str(), skin.count), ("skin", "light", 9));
+/// assert!(skin.mean <= skin.max && skin.max <= 0.501 / 255.0);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]

@@ -5,6 +5,25 @@ use super::compared::Compared;
 /// At every place the 3x3 of local contrast is taken, change of the picture over change of the scene, both in
 /// stops, by central differences in each channel. Where the sign of its determinant is not the reference's, the
 /// candidate has a fold.
+///
+/// ```
+/// # use onelight_lut::{ColourSet, Maps, Samples, SamplingLaw, Search, certify};
+/// # let film = |rgb: [f64; 3]| rgb.map(|u| u / (u + 0.18));
+/// # let skin = ColourSet::new("skin", [("light", [0.56, 0.39, 0.31])])?;
+/// # let samples = Samples::new(&SamplingLaw { count: 1 << 8, ..SamplingLaw::default() }, &[skin], film, |_| {})?;
+/// # let maps = Maps {
+/// #     reference: film,
+/// #     candidate: |rgb| film(rgb).map(|v| (v * 255.0).round() / 255.0),
+/// #     difference: |a: &[f64; 3], b: &[f64; 3]| (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max),
+/// #     luminance: |v: &[f64; 3]| (v[0] + v[1] + v[2]) / 3.0,
+/// # };
+/// # let certificate = certify(&samples, &maps, Search::SamplesOnly, |_| {})?;
+/// // Rounded colours stand still between codes and then jump, but no two change places.
+/// let folds = certificate.folds;
+/// assert!(folds.folds <= folds.places - folds.clipped - folds.flat);
+/// assert_eq!(folds.first.is_some(), folds.folds > 0);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]

@@ -5,6 +5,25 @@ use crate::deviation::Deviation;
 use crate::error::{Error, ErrorKind};
 
 /// A map on greys, from the darkest to the brightest stop of the law.
+///
+/// ```
+/// # use onelight_lut::{ColourSet, Maps, Samples, SamplingLaw, Search, certify};
+/// # let film = |rgb: [f64; 3]| rgb.map(|u| u / (u + 0.18));
+/// # let skin = ColourSet::new("skin", [("light", [0.56, 0.39, 0.31])])?;
+/// # let samples = Samples::new(&SamplingLaw { count: 1 << 8, ..SamplingLaw::default() }, &[skin], film, |_| {})?;
+/// # let maps = Maps {
+/// #     reference: film,
+/// #     candidate: |rgb| film(rgb).map(|v| (v * 255.0).round() / 255.0),
+/// #     difference: |a: &[f64; 3], b: &[f64; 3]| (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max),
+/// #     luminance: |v: &[f64; 3]| (v[0] + v[1] + v[2]) / 3.0,
+/// # };
+/// # let certificate = certify(&samples, &maps, Search::SamplesOnly, |_| {})?;
+/// let greys = certificate.neutral_axis;
+/// assert!(greys.max <= 0.501 / 255.0);
+/// // The film gets brighter with light, and so do its rounded values.
+/// assert_eq!((greys.fall.luminance, greys.reference_fall.stops), (0.0, None));
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
@@ -26,6 +45,12 @@ pub struct NeutralAxis {
 }
 
 /// The largest fall of luminance from a grey to the next brighter one.
+///
+/// ```
+/// // Luminance never falls: what a certificate of a good map says.
+/// let none = onelight_lut::Fall::default();
+/// assert_eq!((none.luminance, none.stops), (0.0, None));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]

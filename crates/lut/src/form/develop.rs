@@ -34,6 +34,15 @@ pub struct Develop {
 
 /// Layers that act on each other: `h' = h + matrix q`, where `q` are the values of `curves` at the log2 exposures `h`. The curves
 /// of [`Develop`] are then read at `h'`.
+///
+/// ```
+/// use onelight_lut::{Coupling, Lut1d};
+/// // Each layer holds the two others back by a tenth of a stop for each stop of its own exposure.
+/// let matrix = [[0.2, -0.1, -0.1], [-0.1, 0.2, -0.1], [-0.1, -0.1, 0.2]];
+/// let coupling = Coupling { curves: Lut1d::sample(Coupling::MAX_SIZE, [-16.0, 16.0], |h| h)?, matrix };
+/// assert!(coupling.matrix.iter().all(|row| row.iter().sum::<f32>().abs() < 1e-6), "greys stay");
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coupling {
     /// A curve over log2 exposure for each layer: what acts. At most [`Coupling::MAX_SIZE`] entries.

@@ -43,6 +43,24 @@ pub struct DirectForm {
 }
 
 /// What a [`DirectForm`] is made of, in the order in which it is applied.
+///
+/// ```
+/// # use onelight_lut::{Develop, DirectForm, DirectParts, DirectPrint, Expose, ExponentialSum, ExponentialTerm, IDENTITY, Lut1d, PowerCoding};
+/// # let unit = |c: usize, v: f32| std::array::from_fn(|k| if k == c { v } else { 0.0 });
+/// # let sum = |rate: f32| ExponentialSum::new((0..3).map(|c| ExponentialTerm { rate: unit(c, rate), weight: unit(c, 1.0) }).collect());
+/// let film = DirectParts {
+///     expose: Expose::by(IDENTITY),
+///     develop: Develop { coupling: None, curves: Lut1d::sample(64, [-10.0, 0.0], |stops| -0.5 * stops)? },
+///     print: None,
+///     projection: sum(2.0)?,
+///     coding: PowerCoding::LINEAR,
+/// };
+/// // A stop brighter: the matrix before the film doubled.
+/// let brighter = DirectParts { expose: Expose::by(IDENTITY.map(|row| row.map(|v| 2.0 * v))), ..film.clone() };
+/// let [film, brighter] = [DirectForm::new(film)?, DirectForm::new(brighter)?];
+/// assert!((brighter.apply([0.1; 3])[0] - film.apply([0.2; 3])[0]).abs() < 1e-6);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectParts {
     /// From scene light to log2 exposure.
@@ -58,6 +76,24 @@ pub struct DirectParts {
 }
 
 /// What a second film adds: its exposure, and its curves over log2 of it.
+///
+/// ```
+/// # use onelight_lut::{Develop, DirectForm, DirectParts, DirectPrint, Expose, ExponentialSum, ExponentialTerm, IDENTITY, Lut1d, PowerCoding};
+/// # let unit = |c: usize, v: f32| std::array::from_fn(|k| if k == c { v } else { 0.0 });
+/// # let sum = |rate: f32| ExponentialSum::new((0..3).map(|c| ExponentialTerm { rate: unit(c, rate), weight: unit(c, 1.0) }).collect());
+/// // A negative's dye grows with light, and the print behind it turns that round.
+/// let negative = Develop { coupling: None, curves: Lut1d::sample(64, [-10.0, 0.0], |stops| 0.5 * (stops + 10.0))? };
+/// let print = DirectPrint { exposure: sum(2.0)?, curves: Lut1d::sample(64, [-10.0, 0.0], |stops| 0.5 * (stops + 10.0))? };
+/// let form = DirectForm::new(DirectParts {
+///     expose: Expose::by(IDENTITY),
+///     develop: negative,
+///     print: Some(print),
+///     projection: sum(2.0)?,
+///     coding: PowerCoding::LINEAR,
+/// })?;
+/// assert!(form.apply([0.5; 3])[0] > form.apply([0.1; 3])[0]);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectPrint {
     /// From the first curves' values to the exposure of each channel.

@@ -47,6 +47,21 @@ pub struct StructuredLut {
 }
 
 /// What a [`StructuredLut`] is made of, in the order in which it is applied.
+///
+/// ```
+/// # use onelight_lut::{Decode, Develop, Expose, IDENTITY, Interpolation, Lut1d, Lut3d, Mix, PowerCoding, StructuredLut, StructuredParts};
+/// // The curves of a film from -10 stops to white, and a table that leaves them as they are.
+/// let parts = StructuredParts {
+///     expose: Expose::by(IDENTITY),
+///     develop: Develop { coupling: None, curves: Lut1d::sample(64, [-10.0, 0.0], |stops| 1.0 + 0.1 * stops)? },
+///     mix: None,
+///     table: Lut3d::identity(2)?,
+///     decode: Decode::Coded,
+///     interpolation: Interpolation::Tetrahedral,
+/// };
+/// assert!((StructuredLut::new(parts)?.apply([0.25; 3])[0] - 0.8).abs() < 1e-5);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct StructuredParts {
     /// From scene light to log2 exposure.
@@ -64,6 +79,18 @@ pub struct StructuredParts {
 }
 
 /// A matrix with offset, then a curve on each channel.
+///
+/// ```
+/// # use onelight_lut::{Decode, Develop, Expose, IDENTITY, Interpolation, Lut1d, Lut3d, Mix, PowerCoding, StructuredLut, StructuredParts};
+/// // What a print's layers see of a negative's: half a unit less where it has one unit more.
+/// let mix = Mix {
+///     matrix: IDENTITY.map(|row| row.map(|v| -0.5 * v)),
+///     offset: [1.0; 3],
+///     curves: Lut1d::sample(2, [0.0, 1.0], |v| v)?,
+/// };
+/// assert_eq!(mix.curves.apply([mix.matrix[0][0] + mix.offset[0]; 3]), [0.5; 3]);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mix {
     /// From the first curves' values to those that the second take.
@@ -75,6 +102,21 @@ pub struct Mix {
 }
 
 /// How entries of a table become the output.
+///
+/// ```
+/// # use onelight_lut::{Decode, Develop, Expose, IDENTITY, Interpolation, Lut1d, Lut3d, Mix, PowerCoding, StructuredLut, StructuredParts};
+/// let parts = StructuredParts {
+///     expose: Expose::by(IDENTITY),
+///     develop: Develop { coupling: None, curves: Lut1d::sample(64, [-10.0, 0.0], |stops| -0.1 * stops)? },
+///     mix: None,
+///     table: Lut3d::identity(2)?,
+///     decode: Decode::Density { matrix: IDENTITY, coding: PowerCoding::LINEAR },
+///     interpolation: Interpolation::Tetrahedral,
+/// };
+/// // White has no dye, so density 0, so all of the light.
+/// assert!((StructuredLut::new(parts)?.apply([1.0; 3])[0] - 1.0).abs() < 1e-5);
+/// # Ok::<(), onelight_lut::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Decode {
     /// The entries are the output as they are.

@@ -62,6 +62,14 @@ words! {
 }
 
 /// One file of a baked look.
+///
+/// ```
+/// use onelight::baked::{FileFormat, Recipe};
+/// let baked = onelight::Process::default().look()?.baked(&Recipe::cube(17))?;
+/// let files = baked.files(FileFormat::Cube, &["5207 on 2383".to_owned()])?;
+/// assert_eq!(files[0].name, "look.scene-linear.resolve.cube");
+/// # Ok::<(), onelight::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BakedFile {
     /// Its name, which says what it takes: `look.logc4.cube`.
@@ -71,6 +79,15 @@ pub struct BakedFile {
 }
 
 /// A baked look as a file of it is read back: what a certificate of the file is for.
+///
+/// ```
+/// use onelight::baked::{FileFormat, Recipe};
+/// let baked = onelight::Process::default().look()?.baked(&Recipe::cube(17))?;
+/// let read_back = baked.as_written(FileFormat::Cube)?;
+/// let (file, memory) = (read_back.apply([0.18; 3]), baked.apply([0.18; 3]));
+/// assert!((file[0] - memory[0]).abs() < 1e-4);
+/// # Ok::<(), onelight::Error>(())
+/// ```
 #[derive(Debug)]
 pub struct AsWritten<'a> {
     baked: &'a Baked,

@@ -37,6 +37,14 @@ pub struct Baked {
 }
 
 /// The numbers of a [`Baked`] look, by its form.
+///
+/// ```
+/// use onelight::baked::{BakedForm, Form, Recipe};
+/// let baked = onelight::Process::default().look()?.baked(&Recipe { form: Form::Direct, ..Recipe::default() })?;
+/// let BakedForm::Direct(direct) = baked.form() else { return Ok(()) };
+/// assert!(direct.apply([0.18; 3])[1] > 0.4);
+/// # Ok::<(), onelight::Error>(())
+/// ```
 #[derive(Debug, Clone)]
 pub enum BakedForm {
     /// A shaper and a table; takes scene-linear light.

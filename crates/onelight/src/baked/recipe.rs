@@ -87,6 +87,14 @@ pub enum ShaperChoice {
 ///
 /// Programs that keep a picture in integers wrap what lies outside 0 to 1 or cut it, each in its own way; entries of saturated
 /// colours lie as low as -0.43 before they are cut.
+///
+/// ```
+/// use onelight::baked::{EntryRange, Recipe, ShaperChoice};
+/// let table = Recipe::taking(ShaperChoice::Srgb);
+/// assert_eq!(table.range, EntryRange::Unit);
+/// let unclamped = Recipe { range: EntryRange::Any, ..table };
+/// # assert_ne!(unclamped, table);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum EntryRange {
     /// Cut to 0 to 1, what a display shows.

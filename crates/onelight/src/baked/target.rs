@@ -61,6 +61,13 @@ words! {
 }
 
 /// A table that a target loads.
+///
+/// ```
+/// use onelight::baked::{FileFormat, Target};
+/// let tables = Target::Ffmpeg.tables();
+/// assert_eq!(tables[0].format, FileFormat::Cube);
+/// println!("{}", tables[0].load);
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct TargetTable {
     /// How it is baked.

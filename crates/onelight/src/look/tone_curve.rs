@@ -22,6 +22,14 @@ pub struct ToneCurve {
 }
 
 /// The numbers of a [`ToneCurve`], as a texture takes them.
+///
+/// ```
+/// use onelight::{Look, Process, FirstProcess};
+/// let Look::First(first) = Process::from(FirstProcess::default()).look()? else { return Ok(()) };
+/// let texels = first.tone_curves().green.texels();
+/// assert!(texels.first < 0.0 && texels.last > 0.0 && texels.values.len() == 512);
+/// # Ok::<(), onelight::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Texels<'a> {
     /// Display-coded values at equal steps of log10 exposure.

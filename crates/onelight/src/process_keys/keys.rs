@@ -157,6 +157,12 @@ impl Default for ProcessKeys {
 }
 
 /// The folder and the digest of a data sheet of one's own, as two keys have them.
+///
+/// ```
+/// use onelight::ProcessKeys;
+/// let keys = ProcessKeys { camera_sheet: Some("mine".into()), camera_sha256: Some("00".into()), ..ProcessKeys::default() };
+/// assert_eq!(keys.camera_sheet().map(|sheet| sheet.path), Some("mine"));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SheetKeys<'a> {
     /// The folder, as seen from the folder of the `look.toml`.

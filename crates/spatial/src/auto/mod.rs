@@ -38,6 +38,12 @@ impl fmt::Display for Effect {
 }
 
 /// What a look at a picture came to.
+///
+/// ```
+/// use onelight_spatial::Verdict;
+/// let runs = |verdict| matches!(verdict, Verdict::Visible);
+/// assert!(runs(Verdict::Visible) && !runs(Verdict::NotVisible));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Verdict {
     /// The effect can be seen: run it.

@@ -46,6 +46,15 @@ struct LayerCells {
 }
 
 /// The light that returns everywhere in a picture, in cells.
+///
+/// ```
+/// use onelight_spatial::{FilmFormat, Frame, Halation, HalationCells, HalationSettings, HaloField, Planes};
+/// let frame = Frame::new([64, 64], FilmFormat::Super35.pitch(2048, 1.0)?)?;
+/// let mut cells = HalationCells::new(&Halation::new(HalationSettings::default())?, &frame)?;
+/// cells.add(&Planes::new(64, 0..64)?)?;
+/// let halo: HaloField = cells.finish()?;
+/// # Ok::<(), onelight_spatial::Error>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct HaloField {
     frame: Frame,
