@@ -268,3 +268,52 @@ fn read(path: &Path) -> Result<ProcessKeys> {
     }
     Ok(keys)
 }
+
+#[cfg(test)]
+mod tests {
+    use clap::{CommandFactory as _, Parser};
+    use toml::Value;
+
+    use super::*;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        look: LookArguments,
+    }
+
+    /// As it is typed: lists with commas.
+    fn typed(value: &Value) -> String {
+        match value {
+            Value::String(word) => word.clone(),
+            Value::Array(values) => values.iter().map(typed).collect::<Vec<_>>().join(","),
+            other => other.to_string().trim_end_matches(".0").to_owned(),
+        }
+    }
+
+    #[test]
+    fn nothing_typed_is_the_default_of_the_library() {
+        assert_eq!(Line::parse_from(["line"]).look.chosen().unwrap().process, Process::default());
+    }
+
+    /// Every key of look.toml, with what the help says that it is when left out.
+    #[test]
+    fn help_names_the_defaults_of_the_library() {
+        let mut keys: toml::Table = ProcessKeys::default().to_toml().parse().unwrap();
+        let Some(Value::Table(first)) = keys.remove("first") else { panic!("no controls of the first approach") };
+        keys.remove("version");
+        keys.extend(first.into_iter().filter(|(key, _)| key != "curve"));
+        let command = Line::command();
+        for (key, value) in &keys {
+            let option = key.replace('_', "-");
+            let argument = command.get_arguments().find(|a| a.get_long() == Some(&option));
+            let help = argument.and_then(|a| a.get_help()).unwrap_or_else(|| panic!("no --{option}")).to_string();
+            let said = help.split("[default: ").nth(1).and_then(|rest| rest.split(']').next());
+            let said = said.unwrap_or_else(|| panic!("--{option} says no default: {help}"));
+            // What depends on the picture or the camera film ends or begins with the look's own.
+            let same =
+                [said.strip_suffix(" for negatives"), said.rsplit_once("else ").map(|(_, last)| last), Some(said)];
+            assert!(same.contains(&Some(typed(value).as_str())), "--{option} says {said:?}, it is {value}");
+        }
+    }
+}

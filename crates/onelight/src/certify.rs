@@ -113,7 +113,7 @@ pub struct Tint {
     pub stops: f64,
 }
 
-/// Mean and largest difference over a range of exposures.
+/// Mean and largest difference of some colours, as over a range of exposures.
 ///
 /// ```
 /// # use onelight::baked::Recipe;
@@ -126,12 +126,32 @@ pub struct Tint {
 /// assert!(usual.mean <= usual.max && usual.max <= all.max_found);
 /// # Ok::<(), onelight::Error>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MeanAndMax {
     /// Mean difference of all colours, CIEDE2000.
     pub mean: f64,
     /// The largest difference found, CIEDE2000.
     pub max: f64,
+}
+
+impl MeanAndMax {
+    /// Of these differences, added in their order; 0 where there are none.
+    ///
+    /// ```
+    /// use onelight::certify::MeanAndMax;
+    /// assert_eq!(MeanAndMax::of(&[0.5, 1.5]).to_string(), "1.000 CIEDE2000 in the mean and 1.500 at most");
+    /// ```
+    #[must_use]
+    pub fn of(differences: &[f64]) -> Self {
+        let mean = differences.iter().sum::<f64>() / differences.len().max(1) as f64;
+        Self { mean, max: differences.iter().copied().fold(0.0, f64::max) }
+    }
+}
+
+impl fmt::Display for MeanAndMax {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:.3} CIEDE2000 in the mean and {:.3} at most", self.mean, self.max)
+    }
 }
 
 /// A look with all that measuring several forms against it needs.

@@ -170,7 +170,7 @@ impl Reference {
     /// Scene-linear RGB to display-linear RGB, not clipped. Hard inputs as in [`Reference::develop`].
     #[must_use]
     pub fn develop_linear(&self, rgb: [f64; 3]) -> DisplayLinear {
-        self.develop_exposure(self.exposure.expose(self.scene.light(rgb)))
+        self.develop_exposure(self.exposure.expose(self.light(rgb)))
     }
 
     /// Exposure of the three layers (not its logarithm; matching vector included) to display-linear RGB: for light whose
@@ -215,7 +215,7 @@ impl Reference {
     /// ```
     #[must_use]
     pub fn is_outside_srgb(&self, rgb: [f64; 3]) -> bool {
-        let light = self.scene.light(rgb);
+        let light = self.light(rgb);
         let most = light.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
         light.iter().any(|v| *v < -1e-6 * most)
     }
@@ -328,6 +328,11 @@ impl Reference {
 
     pub(crate) fn duplication(&self) -> Option<&LitDuplication> {
         self.print.as_ref().map(|print| &print.duplication)
+    }
+
+    /// Scene light as the exposure matrix takes it: sRGB primaries, hard values cleaned.
+    pub(crate) fn light(&self, rgb: [f64; 3]) -> [f64; 3] {
+        self.scene.light(rgb)
     }
 
     pub(crate) fn to_srgb(&self) -> &Matrix3<f64> {

@@ -34,11 +34,13 @@ fn a_table_is_chosen_and_measured_on_the_users_scene() {
     let json: serde_json::Value = serde_json::from_str(&chosen).unwrap();
     assert!(json["certificate"]["max_found"].as_f64().unwrap() <= 1.5);
     assert!(json["scene"]["mean"].as_f64().unwrap() < 0.5);
+    assert_eq!((&json["scene_gamut"]["gamut"], &json["scene_gamut"]["other"]), (&"compress".into(), &"clip".into()));
     assert_eq!(json["failures"].as_array().unwrap().len(), 0);
     let saved: serde_json::Value = serde_json::from_slice(&fs::read(folder.join("a/look.json")).unwrap()).unwrap();
     assert_eq!(saved["certificate"], json["certificate"]);
     let fitted = done(folder, &["bake", "--scene", "scene.exr", "--size", "17", "--out", "b"]);
     assert!(fitted.contains("on the scene given"), "{fitted}");
+    assert!(fitted.contains("% of the pixels hold light outside the sRGB primaries (--gamut compress)"), "{fitted}");
     assert!(refused(folder, &["bake", "--scene", "missing.exr"]).contains("missing.exr"));
     assert!(refused(folder, &["bake", "--form", "structured", "--format", "cube"]).contains("clf"));
     assert!(refused(folder, &["bake", "--format", "hald"]).contains("--shaper srgb"));

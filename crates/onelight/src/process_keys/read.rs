@@ -180,6 +180,37 @@ mod tests {
         assert_eq!(keys, known);
     }
 
+    /// A look of nothing but a version, the keys' default, and the default of every type that a setting has of its own.
+    #[test]
+    fn what_is_left_out_is_the_default_of_the_library() {
+        use onelight_printing::{EquivalentNeutralDensity, Printer};
+
+        use crate::{ColourSpaces, DEFAULT_CAMERA, FilmProcess, FirstProcess, Printing, ToneProcess};
+
+        let look = |text: &str| Process::from_toml("look.toml", &format!("version = 2\n{text}")).unwrap();
+        assert_eq!(look(""), Process::default());
+        assert_eq!(ProcessKeys::default().process().unwrap(), Process::default());
+        assert_eq!(ProcessKeys::from(&Process::default()), ProcessKeys::default());
+        assert_eq!(Process::default(), FilmProcess::default().into());
+        assert_eq!(FilmProcess::for_camera(DEFAULT_CAMERA).unwrap(), FilmProcess::default());
+        assert_eq!(look("approach = \"first\""), FirstProcess::default().into());
+        assert_eq!(look("approach = \"reinhard\""), ToneProcess::default().into());
+
+        let FilmProcess { print, aim, neutral_density, overexposure, dyes, .. } = FilmProcess::default();
+        assert_eq!((overexposure, aim, dyes), Default::default());
+        assert_eq!(neutral_density, EquivalentNeutralDensity::default().value());
+        let FilmProcess { matching, inter_image, reconstruction, gamut, projector, white, spaces, .. } =
+            FilmProcess::default();
+        assert_eq!((matching, inter_image, reconstruction), Default::default());
+        assert_eq!((gamut, projector, white), Default::default());
+        let ColourSpaces { input_space, output_space, output_coding } = spaces;
+        assert_eq!((input_space, output_space, output_coding), Default::default());
+        let print = print.unwrap();
+        assert_eq!((print.curves, print.calibration), Default::default());
+        assert_eq!((print.printer(), print.points), (Printer::default(), [0.0; 3]));
+        assert_eq!(print, Printing::default());
+    }
+
     #[test]
     fn switches_go_there_and_back() {
         use onelight_printing::{Calibration, Filters, Wratten};

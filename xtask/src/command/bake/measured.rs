@@ -6,7 +6,7 @@ use anyhow::{Context, Result};
 use onelight::baked::{AsWritten, Baked, FileFormat};
 use onelight::certify::{Certifier, Gamut, Tint, in_words, summary};
 use onelight::lut::{Certificate, Deviation, SamplingLaw, Search, deviation};
-use onelight::{Look, Word as _, WorkingSpace};
+use onelight::{GamutEffect, Look, Word as _, WorkingSpace};
 use serde_json::{Map, Value, json};
 
 use super::tints::{self, Tinted};
@@ -21,6 +21,8 @@ pub(super) struct Measured {
     files: Vec<(FileFormat, Certificate)>,
     rec2020: Option<Certificate>,
     scene: Option<Deviation>,
+    /// What light outside the sRGB primaries does on the user's own pictures; `None` without them or without film.
+    gamut: Option<GamutEffect>,
     /// The tint of greys that the look itself has, whatever it is baked to.
     tint: Tint,
     /// The same for either white and aim.
@@ -56,9 +58,13 @@ impl Measured {
             }
             Gamut::Srgb => None,
         };
+        let gamut = match (film, scene) {
+            (Look::Film(film), Some(colours)) => Some(film.gamut_effect(colours)?),
+            _ => None,
+        };
         let scene = scene.map(|colours| on_scene(film, first, colours)).transpose()?;
         let (tint, limit) = (measure.tint(), max_de.unwrap_or(WARN_ABOVE));
-        Ok(Self { files, rec2020, scene, tint, tints: tints::of(look)?, limit })
+        Ok(Self { files, rec2020, scene, gamut, tint, tints: tints::of(look)?, limit })
     }
 
     /// The certificate of the first format.
@@ -90,6 +96,9 @@ impl Measured {
                 d.count, d.mean, d.p95, d.p99, d.max, d.worst[0], d.worst[1], d.worst[2]
             );
         }
+        if let Some(effect) = &self.gamut {
+            let _ = writeln!(text, "  {effect}");
+        }
         text
     }
 
@@ -105,6 +114,7 @@ impl Measured {
             "certificates": self.files.iter().map(|(f, c)| (f.word().to_owned(), json!(c))).collect::<Map<_, _>>(),
             "certificate_rec2020": self.rec2020,
             "scene": self.scene,
+            "scene_gamut": self.gamut,
             "tint": { "unit": "CIELAB C*", "mid_grey": mid_grey, "largest": largest, "stops": stops },
             "tints": tints::json(&self.tints),
             "limit": self.limit,

@@ -1,7 +1,8 @@
 //! What a fast form and a wide gamut do to this picture, told from some of its pixels.
 
 use anyhow::Result;
-use onelight::{Reference, WideGamut};
+use onelight::certify::MeanAndMax;
+use onelight::{GamutEffect, Reference};
 use onelight_picture::Band;
 use rayon::prelude::*;
 
@@ -20,13 +21,6 @@ pub(super) struct Sample<'a> {
     kept: Vec<[f32; 3]>,
     /// Counted for films that compress such light.
     outside: u64,
-}
-
-/// A colour difference, CIEDE2000.
-#[derive(Debug, Clone, Copy, Default)]
-struct Difference {
-    mean: f64,
-    max: f64,
 }
 
 impl<'a> Sample<'a> {
@@ -72,13 +66,14 @@ impl<'a> Sample<'a> {
     }
 
     /// How far a map to display-coded colours lies from the exact look.
-    fn miss(&self, map: impl Fn([f32; 3]) -> [f32; 3] + Sync) -> Result<Difference> {
+    fn miss(&self, map: impl Fn([f32; 3]) -> [f32; 3] + Sync) -> Result<MeanAndMax> {
         let exact = self.film.exact();
         let difference = exact.difference()?;
         let linear = |coded: [f32; 3]| exact.coding().decode_rgb(coded.map(f64::from));
-        Ok(Difference::of(&self.kept, |rgb| {
-            difference.between(exact.develop_linear(rgb.map(f64::from)), linear(map(rgb)))
-        }))
+        let between = |rgb: &[f32; 3]| difference.between(exact.develop_linear(rgb.map(f64::from)), linear(map(*rgb)));
+        // In order, so that the sum is the same on any number of threads.
+        let all: Vec<f64> = self.kept.par_iter().map(between).collect();
+        Ok(MeanAndMax::of(&all))
     }
 
     /// What share of the picture lies outside, and how far clipping would move those pixels that were kept.
@@ -87,32 +82,11 @@ impl<'a> Sample<'a> {
             "{:.2} % of the pixels hold light outside the sRGB primaries, which --gamut compress keeps apart",
             100.0 * self.outside as f64 / self.all as f64
         );
-        let outside: Vec<[f32; 3]> =
-            self.kept.iter().copied().filter(|rgb| film.is_outside_srgb(rgb.map(f64::from))).collect();
-        if outside.is_empty() {
+        let kept: Vec<[f64; 3]> = self.kept.iter().map(|rgb| rgb.map(f64::from)).collect();
+        let GamutEffect { outside, colours, moved, .. } = film.gamut_effect(&kept)?;
+        if outside == 0 {
             return Ok(share);
         }
-        // Clipping changes exposures, and nothing before or after them.
-        let clip = film.exposure_matrix().clone().with_gamut(WideGamut::Clip);
-        let difference = film.difference()?;
-        let moved = Difference::of(&outside, |rgb| {
-            let stages = film.stages(rgb.map(f64::from));
-            difference.between(stages.linear, film.develop_exposure(clip.expose(stages.scene)))
-        });
-        Ok(format!("{share}: {moved} from --gamut clip on {} of {} pixels", outside.len(), self.kept.len()))
-    }
-}
-
-impl Difference {
-    fn of(colours: &[[f32; 3]], difference: impl Fn([f32; 3]) -> f64 + Sync) -> Self {
-        // In order, so that the sum is the same on any number of threads.
-        let all: Vec<f64> = colours.par_iter().map(|rgb| difference(*rgb)).collect();
-        Self { mean: all.iter().sum::<f64>() / all.len().max(1) as f64, max: all.iter().copied().fold(0.0, f64::max) }
-    }
-}
-
-impl std::fmt::Display for Difference {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{:.3} CIEDE2000 in the mean and {:.3} at most", self.mean, self.max)
+        Ok(format!("{share}: {moved} from --gamut clip on {outside} of {colours} pixels"))
     }
 }
