@@ -9,7 +9,8 @@ use super::causes::{self, Cause};
 use super::chart::{COLOURS, Chart, Scene};
 use super::negative::{ALONE, Negative};
 use super::plot::{self, Curve};
-use super::{greys, words};
+use super::reversal::{self, Exchanged};
+use super::{absolute, greys, surface, words};
 use crate::error::Result;
 use crate::sheet_fidelity;
 
@@ -65,7 +66,10 @@ pub fn measure() -> Result<Page> {
         separations()?,
         densities()?,
         chroma(&scene)?,
+        reversal_films(&scene)?,
         grey_scale(&scene)?,
+        absolute_greys(&scene)?,
+        surfaces(&scene)?,
         uncertain(&scene)?,
         print_curves(&scene)?,
         turns()?,
@@ -194,6 +198,25 @@ fn chroma(scene: &Scene) -> Result<Part> {
     Ok(Part { text, plots })
 }
 
+fn reversal_films(scene: &Scene) -> Result<Part> {
+    let mut text = words::REVERSAL.to_owned();
+    for Exchanged { id, own, lent, alone } in reversal::all(scene)? {
+        let lent_chroma =
+            lent.map(|lent| if id == reversal::LENDER { "-".to_owned() } else { format!("{:.2}", lent.chroma) });
+        let _ = writeln!(
+            text,
+            "| {id} | {:.2} | {} | {:.2} | {:.2} | {} |",
+            own.chroma,
+            lent_chroma.join(" | "),
+            alone.chroma,
+            own.gamma,
+            if id == reversal::LENDER { "-".to_owned() } else { format!("{:.2}", lent[1].gamma) }
+        );
+    }
+    text.push_str(words::WHOSE_STRENGTH);
+    Ok(Part { text, plots: String::new() })
+}
+
 fn grey_scale(scene: &Scene) -> Result<Part> {
     let look = FilmProcess::default().compile()?;
     let lightness: Vec<f64> = (1..=9).map(|i| 10.0 * f64::from(i)).collect();
@@ -217,6 +240,36 @@ fn grey_scale(scene: &Scene) -> Result<Part> {
         "\nLargest chroma of a grey from -4 to +6 stops, 5207 on 2383 in neutral aim: {most:.1} at {stops:+.2} stops."
     );
     Ok(Part { text, plots: plot::curves("b* of greys over L*, 5207 on 2383", &curves) })
+}
+
+fn absolute_greys(scene: &Scene) -> Result<Part> {
+    let mut text = words::ABSOLUTE.to_owned();
+    for absolute::Unbalanced { id, off, grey, tint, alone } in absolute::all(scene)? {
+        let [red, green, blue] = off;
+        let _ = writeln!(
+            text,
+            "| {id} | {red:+.2}/{green:+.2}/{blue:+.2} | {:.1} | {:.1} | {alone:.1} | {:.1} at {:+.2} |",
+            grey[0],
+            grey[1].hypot(grey[2]),
+            tint.0,
+            tint.1
+        );
+    }
+    text.push_str(words::WHY_ABSOLUTE);
+    Ok(Part { text, plots: String::new() })
+}
+
+fn surfaces(scene: &Scene) -> Result<Part> {
+    let mut text = words::SURFACE.to_owned();
+    for surface::Reflecting { name, black, moved: [half, one] } in surface::all(scene)? {
+        let _ = writeln!(
+            text,
+            "| {name} | {:.1} | {:.1} | {:.2}, {:.1} ({}) | {:.1} | {:.2}, {:.1} ({}) |",
+            black[0], black[1], half.0, half.1, half.2, black[2], one.0, one.1, one.2
+        );
+    }
+    text.push_str(words::NO_SURFACE);
+    Ok(Part { text, plots: String::new() })
 }
 
 fn uncertain(scene: &Scene) -> Result<Part> {

@@ -65,6 +65,24 @@ Held against the reflectance as it is, not as bright as the picture's mid grey o
 to turn by 12 degrees at most on 5207. Strengths are not changed to meet a figure of this table.
 ";
 
+pub(super) const REVERSAL: &str = "\
+## Which reversal film is stronger
+
+The order of the three in the table above, and what each becomes with one set of figures exchanged for Provia's: median chroma, and the
+gamma of a grey card. Each keeps its own grey scale: amounts of the exchanged dyes are those that give it.
+
+| film | as it is | sensitivities | characteristic curves | dyes | cyan dye alone | magenta | yellow | no inter-image effect | gamma | with Provia's curves |
+|---|---|---|---|---|---|---|---|---|---|---|
+";
+
+pub(super) const WHOSE_STRENGTH: &str = "
+The spectral density of the dyes makes the order, and more than half of it the cyan dye alone: at 440 nm Provia's absorbs 0.16 of what
+it does at its peak, Ektachrome's and Velvia's 0.06 to 0.07, and no other dye takes that out again. It is the dye that was held against
+real film above. Neither sensitivities nor characteristic curves make the order: Ektachrome is the steepest at a grey card, and with Provia's
+flatter curves it is no weaker. That photographers know Velvia for the strongest is not in these sheets; the inter-image effect, which
+could make it so, is assumed to be the same on all three, for want of a measurement.
+";
+
 pub(super) const GREYS: &str = "\
 ## Greys
 
@@ -73,6 +91,41 @@ L* 20 up.
 
 | L* | emulation | here | off |
 |---|---|---|---|
+";
+
+pub(super) const ABSOLUTE: &str = "\
+## Greys under `--matching absolute`
+
+Layers are exposed as their published sensitivities say and the film's own axis counts, and grey is not pinned: stops by which an 18 %
+grey card lies beside where the balanced film has it, red, green, blue; what becomes of the card in neutral aim, with layers that
+inhibit each other and without; the largest C* of greys from -4 to +6 stops. Films whose sheet has a relative axis or names no
+criterion of its sensitivities are refused and not here.
+
+| film | off, stops | L* of the card | C* | C*, no inter-image effect | largest C* |
+|---|---|---|---|---|---|
+";
+
+pub(super) const WHY_ABSOLUTE: &str = "
+The scene's light is the 6500 K black body. 5213 and 5219 are balanced for tungsten of 3200 K and see it 2.9 and 3.1 stops bluer than red,
+as they do through a lens without an 85 filter. Daylight films are off by 0.1 to 1.2 stops between layers, which is what their axes,
+criteria of sensitivity and our reading of them leave. Inter-image effects pull the layers further apart, because the card no longer lies where
+their effects cancel: C* rises by a third to nine tenths. Balanced matching, the default, is exact at the card.
+";
+
+pub(super) const SURFACE: &str = "\
+## The surface of paper
+
+Paper reflects some white light from its surface, of the lamp and of the room. What 0.5 % and 1 % of white paper's light would do, the
+paper still being seen as white: L* of the densest black, and CIEDE2000 on the ColorChecker (mean, largest).
+
+| print | black | black, 0.5 % | ColorChecker, 0.5 % | black, 1 % | ColorChecker, 1 % |
+|---|---|---|---|---|---|
+";
+
+pub(super) const NO_SURFACE: &str = "
+None is simulated: a sheet's densities are measured with the surface's reflection kept out, how much there is depends on the room, and no
+figure with a source was found; 0.5 to 1 % is assumed. Who wants it adds it to the display-linear picture, as this table does:
+(rgb + part) / (1 + part).
 ";
 
 pub(super) const UNCERTAINTY: &str = "\

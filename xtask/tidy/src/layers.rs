@@ -83,7 +83,7 @@ const LAYERS: [Layer; 15] = [
     Layer { folder: "fixtures", allowed: &["onelight"], ..LIBRARY },
     Layer {
         folder: "benches",
-        allowed: &["onelight", "onelight-lut", "onelight-gpu", "onelight-fixtures"],
+        allowed: &["onelight", "onelight-lut", "onelight-gpu", "onelight-fixtures", "onelight-stocks"],
         wgpu: Wgpu::Optional,
         ..PROGRAM
     },
