@@ -1,9 +1,12 @@
 //! What EXIF says of a picture as it is stored: which way is up, and which space its values are in.
 
-use std::io::Cursor;
+use std::io::{Cursor, Read, Seek};
 
 use crate::{
-    description::Chromaticities, file_colours::FileColours, orientation::Orientation, tiff_directory::TiffFile,
+    description::Chromaticities,
+    file_colours::FileColours,
+    orientation::Orientation,
+    tiff_directory::{Directory, TiffFile},
     transfer::Transfer,
 };
 
@@ -33,13 +36,18 @@ pub(crate) fn read(block: &[u8]) -> Exif {
     let Ok((mut file, first)) = TiffFile::open(Cursor::new(block), block.len() as u64) else { return Exif::default() };
     let Ok(directory) = file.directory(first) else { return Exif::default() };
     let orientation = file.first(&directory, ORIENTATION).ok().flatten();
-    let mut exif = Exif { orientation: Orientation::from_exif(orientation), colours: None };
-    let mut under = |directory, tag| {
+    let orientation = Orientation::from_exif(orientation);
+    Exif { orientation, colours: colours(&mut file, &directory) }
+}
+
+/// What the EXIF below a directory says of the colours: that of a JPEG's or PNG's block, or of a TIFF's page.
+pub(crate) fn colours<R: Read + Seek>(file: &mut TiffFile<R>, directory: &Directory) -> Option<FileColours> {
+    let mut under = |directory: &Directory, tag| {
         let at = file.first(directory, tag).ok().flatten()?;
         file.directory(at).ok()
     };
-    let Some(directory) = under(&directory, EXIF_DIRECTORY) else { return exif };
-    let interoperability = under(&directory, INTEROPERABILITY_DIRECTORY);
+    let exif = under(directory, EXIF_DIRECTORY)?;
+    let interoperability = under(&exif, INTEROPERABILITY_DIRECTORY);
     let index = interoperability.and_then(|own| file.bytes(&own, INTEROPERABILITY_INDEX, 16).ok().flatten());
     let said = |primaries, transfer| {
         Some(FileColours {
@@ -49,13 +57,12 @@ pub(crate) fn read(block: &[u8]) -> Exif {
         })
     };
     // DCF gives Adobe RGB by an uncalibrated space and the index R03.
-    exif.colours = match (file.first(&directory, COLOUR_SPACE).ok().flatten(), index) {
+    match (file.first(&exif, COLOUR_SPACE).ok().flatten(), index) {
         (Some(1), _) => said(Chromaticities::BT709, Transfer::Srgb),
         (Some(2), _) => said(Chromaticities::ADOBE_RGB, Transfer::Power(563.0 / 256.0)),
         (_, Some(index)) if index.starts_with(b"R03") => {
             said(Chromaticities::ADOBE_RGB, Transfer::Power(563.0 / 256.0))
         }
         _ => None,
-    };
-    exif
+    }
 }

@@ -24,7 +24,7 @@ use crate::{
 };
 
 /// Bytes of unpacked blocks held at once, beside the band: a file may have many channels that are not read.
-const BATCH_BYTES: usize = 1 << 26;
+pub(crate) const BATCH_BYTES: usize = 1 << 26;
 
 /// How many times the samples of a block are held while it is unpacked: packed, between steps, and as they come out.
 const UNPACKING: u64 = 3;
@@ -149,7 +149,8 @@ fn fill(layout: &Layout, header: &Header, band: &mut Band, blocks: &[Uncompresse
     });
 }
 
-fn unpack(chunk: Chunk, meta: &MetaData) -> Result<UncompressedBlock, Error> {
+/// Unpacks a block.
+pub(crate) fn unpack(chunk: Chunk, meta: &MetaData) -> Result<UncompressedBlock, Error> {
     dwa::check(&chunk, meta)?;
     panic_to_error(|| UncompressedBlock::decompress_chunk(chunk, meta, false))?
         .map_err(|error| ExrProblem::Pixels(PixelProblem::Decoder(exr_message(&error))).into())

@@ -55,19 +55,33 @@ const NOT_A_PICTURE: [&str; 24] = [
 pub(crate) struct Layout {
     /// Which of the file's parts this is, from 0.
     pub(crate) part: usize,
-    /// The channels red, green and blue, or X, Y and Z; the same thrice for a grey picture.
+    /// The channels red, green and blue, or X, Y and Z, or RY, Y and BY; the same thrice for a grey picture.
     pub(crate) rgb: [Plane; 3],
     /// The channel of coverage (alpha), if the part has one.
     pub(crate) alpha: Option<Plane>,
-    /// Whether the channels are the CIE's X, Y and Z.
-    pub(crate) is_xyz: bool,
+    /// What the three channels are.
+    pub(crate) colours: Colours,
     /// What was chosen among several.
     pub(crate) notes: Vec<String>,
+}
+
+/// What the three channels of a picture are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Colours {
+    Rgb,
+    /// The CIE's X, Y and Z.
+    Xyz,
+    /// RY, Y and BY, the first and the last for every `step`th pixel across and down: 1 or 2.
+    LuminanceChroma {
+        step: usize,
+    },
 }
 
 /// One channel within the interleaved rows of its part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Plane {
+    /// Its place among the channels of the part.
+    pub(crate) index: usize,
     /// Bytes a pixel takes in the channels before this one.
     pub(crate) bytes_before: usize,
     /// How a sample is stored.
@@ -90,10 +104,22 @@ pub(crate) fn choose(parts: &[Header], selection: &Selection) -> Result<Layout, 
         return Err(nothing_found(parts, &all, selection));
     };
     let part = &parts[group.part];
-    if let Some(channel) = part.channels.list.iter().find(|channel| channel.sampling.0 != 1 || channel.sampling.1 != 1)
-    {
+    let colours = match group.set {
+        Set::LuminanceChroma => Colours::LuminanceChroma { step: chroma_step(part, group.rgb) },
+        Set::Xyz => Colours::Xyz,
+        Set::Rgb | Set::Grey | Set::Lone => Colours::Rgb,
+    };
+    for (index, channel) in part.channels.list.iter().enumerate() {
+        let is_chroma = matches!(colours, Colours::LuminanceChroma { .. })
+            && (index == group.rgb[0].index || index == group.rgb[2].index);
+        let expected = match colours {
+            Colours::LuminanceChroma { step } if is_chroma => step,
+            _ => 1,
+        };
         let step = [channel.sampling.0, channel.sampling.1];
-        return Err(ExrProblem::Subsampled { channel: one_line(&channel.name.to_string()), step }.into());
+        if step != [expected; 2] {
+            return Err(ExrProblem::Subsampled { channel: one_line(&channel.name.to_string()), step }.into());
+        }
     }
 
     let mut notes = Vec::new();
@@ -114,11 +140,20 @@ pub(crate) fn choose(parts: &[Header], selection: &Selection) -> Result<Layout, 
     match group.set {
         Set::Rgb => {}
         Set::Xyz => notes.push("took the channels X, Y and Z for the light's CIE XYZ".to_owned()),
+        Set::LuminanceChroma => {
+            notes.push("made red, green and blue of luminance and chroma (Y, RY and BY)".to_owned());
+        }
         Set::Grey => notes.push("read the luminance channel Y as grey".to_owned()),
         Set::Lone => notes.push(format!("read the only channel, `{}`, as grey", one_line(&group.channel))),
     }
-    let Group { part, rgb, alpha, set, .. } = *group;
-    Ok(Layout { part, rgb, alpha, is_xyz: set == Set::Xyz, notes })
+    let Group { part, rgb, alpha, .. } = *group;
+    Ok(Layout { part, rgb, alpha, colours, notes })
+}
+
+/// How many pixels share a difference: 2 where it is kept for a quarter of them, else 1.
+fn chroma_step(part: &Header, [red, ..]: [Plane; 3]) -> usize {
+    let sampling = part.channels.list.get(red.index).map(|channel| channel.sampling);
+    sampling.map_or(1, |sampling| sampling.0.clamp(1, 2))
 }
 
 /// The part that is asked for, from 0.
@@ -152,10 +187,6 @@ fn nothing_found(parts: &[Header], all: &[Group], selection: &Selection) -> Erro
         return ExrProblem::DeepData.into();
     }
     let channels: Vec<String> = parts.iter().flat_map(|part| &part.channels.list).map(|c| c.name.to_string()).collect();
-    let has = |name: &str| channels.iter().any(|channel| channel == name);
-    if has("RY") || has("BY") {
-        return ExrProblem::LuminanceChroma.into();
-    }
     if layers.is_empty() {
         let short: Vec<String> = channels.iter().map(|name| one_line(name)).collect();
         return ExrProblem::Channels { found: listed(&short) }.into();
@@ -172,6 +203,7 @@ fn part_name(part: &Header) -> Option<String> {
 enum Set {
     Rgb,
     Xyz,
+    LuminanceChroma,
     Grey,
     Lone,
 }
@@ -200,8 +232,9 @@ fn groups(index: usize, part: &Header, several: bool) -> Vec<Group> {
         .channels
         .list
         .iter()
-        .map(|described| {
-            let channel = Channel::new(described, bytes_before);
+        .enumerate()
+        .map(|(index, described)| {
+            let channel = Channel::new(described, index, bytes_before);
             bytes_before += described.sample_type.bytes_per_sample();
             channel
         })
@@ -222,6 +255,7 @@ fn groups(index: usize, part: &Header, several: bool) -> Vec<Group> {
         let exactly = |name: &str| own.iter().copied().find(|channel| channel.name == name);
         let three = |names: [&str; 3]| Some([find(names[0])?, find(names[1])?, find(names[2])?]);
         let coordinates = || Some([exactly("X")?, exactly("Y")?, exactly("Z")?]);
+        let chroma = || Some([exactly("RY")?, exactly("Y")?, exactly("BY")?]);
         let luminance = || exactly("Y").filter(|_| exactly("RY").is_none() && exactly("BY").is_none());
         let (set, found) = if let Some(found) = RED_GREEN_BLUE.into_iter().find_map(three) {
             (Set::Rgb, found)
@@ -231,6 +265,8 @@ fn groups(index: usize, part: &Header, several: bool) -> Vec<Group> {
                 return None;
             }
             (Set::Xyz, found)
+        } else if let Some(found) = chroma() {
+            (Set::LuminanceChroma, found)
         } else if let Some(found) = luminance() {
             (Set::Grey, [found; 3])
         } else if coloured == 1 {
@@ -305,13 +341,13 @@ struct Channel {
 }
 
 impl Channel {
-    fn new(described: &ChannelDescription, bytes_before: usize) -> Self {
+    fn new(described: &ChannelDescription, index: usize, bytes_before: usize) -> Self {
         let full = described.name.to_string();
         let (layer, name) = full.rsplit_once('.').unwrap_or(("", &full));
         Self {
             layer: layer.to_owned(),
             name: name.to_owned(),
-            plane: Plane { bytes_before, samples: described.sample_type },
+            plane: Plane { index, bytes_before, samples: described.sample_type },
         }
     }
 

@@ -8,6 +8,7 @@ use std::io::{Seek, SeekFrom};
 
 use exr::{
     compression::Compression,
+    math::Vec2,
     meta::{
         BlockDescription, MetaData,
         attribute::{AttributeValue, IntegerBounds},
@@ -21,7 +22,9 @@ use crate::{
     error::{Error, ExrProblem, exr_message},
     exr_bands::{self, ExrBands},
     exr_blocks::Blocks,
-    exr_boxes, exr_layout,
+    exr_boxes,
+    exr_layout::{self, Colours},
+    exr_luminance_chroma::{self, LuminanceChromaBands},
     file_colours::{FileColours, of_interop_id},
     input::Input,
     limits::{Limits, check_claim, check_shown},
@@ -45,7 +48,13 @@ pub(crate) fn open<'a>(
     let layout = exr_layout::choose(&meta.headers, selection)?;
     let header = &meta.headers[layout.part];
     check(header, length, limits)?;
-    panic_to_error(|| MetaData::validate(std::slice::from_ref(header), false))?
+    // The crate knows no subsampled channels: these are checked here.
+    let mut checked = header.clone();
+    if let Colours::LuminanceChroma { step } = layout.colours {
+        exr_luminance_chroma::check(header, &layout, step, limits)?;
+        checked.channels.list.iter_mut().for_each(|channel| channel.sampling = Vec2(1, 1));
+    }
+    panic_to_error(|| MetaData::validate(std::slice::from_ref(&checked), false))?
         .map_err(|error| ExrProblem::HeaderWrong(exr_message(&error)))?;
 
     let (windows, mut notes) = (windows(header), layout.notes.clone());
@@ -61,12 +70,19 @@ pub(crate) fn open<'a>(
         notes,
         ..Description::new(1, 1, Channels::Rgb, Source::Exr)
     };
-    colours(header, layout.is_xyz).describe(&mut description);
-    if layout.is_xyz {
+    let is_xyz = layout.colours == Colours::Xyz;
+    colours(header, is_xyz).describe(&mut description);
+    if is_xyz {
         description.tristimulus = Tristimulus::Xyz;
     }
     let blocks = Blocks::open(reader, length, tables_at, &meta, layout.part)?;
-    Ok((description, Box::new(ExrBands::new(blocks, meta, layout))))
+    let bands: Box<dyn Bands + 'a> = match layout.colours {
+        Colours::LuminanceChroma { step } => {
+            Box::new(LuminanceChromaBands::new(blocks, meta, layout, step, description.primaries.as_ref()))
+        }
+        Colours::Rgb | Colours::Xyz => Box::new(ExrBands::new(blocks, meta, layout)),
+    };
+    Ok((description, bands))
 }
 
 /// Checks all that memory is taken for, before it is taken.
@@ -84,7 +100,11 @@ fn check(header: &Header, length: u64, limits: &Limits) -> Result<(), Error> {
         }
     }
     let expansion = expansion(header.compression)?;
-    let claimed = (width * height).saturating_mul(header.channels.bytes_per_pixel as u64);
+    let bytes = header.channels.list.iter().map(|channel| {
+        let Vec2(across, down) = channel.subsampled_resolution(header.layer_size);
+        (across as u64 * down as u64).saturating_mul(channel.sample_type.bytes_per_sample() as u64)
+    });
+    let claimed = bytes.fold(0, u64::saturating_add);
     check_claim([width, height], claimed, length, expansion)?;
     exr_bands::check_memory(header, limits)
 }

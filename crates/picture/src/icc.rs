@@ -113,6 +113,9 @@ fn simplest(curves: [Curve; 3]) -> Transfer {
         if let Curve::Parametric([g, a, b, _, _, e, f]) = *red
             && (a, b, e, f) == (1.0, 0.0, 0.0, 0.0)
         {
+            // A power of one decimal is rounded to 1/65536.
+            let round = (g * 10.0).round() / 10.0;
+            let g = if (g - round).abs() < 2e-5 { round } else { g };
             return if g == 1.0 { Transfer::Linear } else { Transfer::Power(g) };
         }
         // Four decimals, or the table of 1024 steps that the first profiles of sRGB have.
@@ -156,6 +159,9 @@ fn primaries(profile: &ColorProfile) -> Option<Chromaticities> {
         Chromaticities::BT2020,
         Chromaticities::ADOBE_RGB,
         Chromaticities::AP1,
+        Chromaticities::AP0,
+        Chromaticities::P3_DCI,
+        Chromaticities::XYZ,
     ];
     // Profiles are rounded to 1/65536 and adapted by matrices of four decimals.
     let near = |named: &Chromaticities| {

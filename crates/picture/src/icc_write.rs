@@ -67,6 +67,7 @@ fn name(tag: &ColourTag) -> String {
         (Chromaticities::BT2020, "Rec.2020"),
         (Chromaticities::ADOBE_RGB, "Adobe RGB"),
         (Chromaticities::AP1, "ACEScg"),
+        (Chromaticities::AP0, "ACES2065-1"),
     ];
     let space = known.iter().find(|(known, _)| known.is_near(&tag.primaries)).map_or("RGB", |(_, name)| name);
     let curve = match tag.transfer {

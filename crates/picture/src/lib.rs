@@ -56,7 +56,7 @@
 //! `exr`, `hdr`, `jpeg`, `png` and `tiff`, all on by default: the formats that are built. `icc`, on too: ICC profiles are read.
 //!
 //! # Out of scope
-//! Deep data, subsampled channels, HTJ2K; CMYK, JPEG-compressed TIFF, camera raw; ICC profiles made of tables; gain maps; animation;
+//! Deep data, subsampled channels other than chroma, HTJ2K; CMYK, JPEG-compressed TIFF, camera raw; ICC profiles made of tables; gain maps; animation;
 //! conversion between colour spaces; paths.
 #![cfg_attr(
     not(all(feature = "exr", feature = "hdr", feature = "icc", feature = "jpeg", feature = "png", feature = "tiff")),
@@ -81,7 +81,7 @@ mod dither;
 #[cfg(feature = "exr")]
 mod dwa;
 mod error;
-#[cfg(any(feature = "jpeg", feature = "png"))]
+#[cfg(any(feature = "jpeg", feature = "png", feature = "tiff"))]
 mod exif;
 #[cfg(feature = "exr")]
 mod exr_bands;
@@ -92,6 +92,8 @@ mod exr_boxes;
 #[cfg(feature = "exr")]
 mod exr_layout;
 #[cfg(feature = "exr")]
+mod exr_luminance_chroma;
+#[cfg(feature = "exr")]
 mod exr_read;
 #[cfg(feature = "exr")]
 mod exr_write;
@@ -100,7 +102,7 @@ mod file_colours;
 mod hdr_read;
 #[cfg(feature = "icc")]
 mod icc;
-#[cfg(any(feature = "jpeg", feature = "tiff"))]
+#[cfg(any(feature = "jpeg", feature = "png", feature = "tiff"))]
 mod icc_write;
 mod input;
 #[cfg(feature = "jpeg")]

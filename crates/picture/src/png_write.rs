@@ -1,8 +1,11 @@
 //! Writing PNG of 8 or 16 bits.
 
-use std::io::{self, Write};
+use std::{
+    borrow::Cow,
+    io::{self, Write},
+};
 
-use png::{BitDepth, ColorType, Compression, Encoder, ScaledFloat, SourceChromaticities};
+use png::{BitDepth, ColorType, Compression, Encoder, Info, ScaledFloat, SourceChromaticities};
 
 use crate::{
     band_sink::{BandSink, Fill, filled_by},
@@ -11,6 +14,7 @@ use crate::{
     display_rows::{DisplayRows, Samples},
     dither::Dither,
     error::{Error, WriteProblem},
+    icc_write,
 };
 
 /// How a PNG is written.
@@ -54,7 +58,8 @@ const CHUNK_BYTES: usize = 1 << 16;
 /// Writes the display window of a picture as PNG, from the bands that `fill` hands over: values are clamped to 0 to 1 (NaN
 /// to 0) and rounded; what the data window does not have is black, transparent where there is alpha. Returns what `fill` returns. Memory is that of a band.
 ///
-/// The tag becomes the chunks `sRGB`, `gAMA`, `cHRM` and `cICP` as far as they can say it; `texts`, a key and a value each,
+/// The tag becomes the chunks `sRGB`, `gAMA`, `cHRM` and `cICP` as far as they can say it, and an ICC profile where primaries have
+/// negative coordinates; `texts`, a key and a value each,
 /// become `tEXt`, or `iTXt` beyond Latin-1, with keys as PNG has them (`Software`, `Title`, ...). The writer is best
 /// buffered; it is flushed.
 ///
@@ -99,7 +104,11 @@ fn write_bands(
     if width == 0 || height == 0 {
         return Err(WriteProblem::NoPixels { size: [width, height] }.into());
     }
-    let mut encoder = Encoder::new(Steadfast { writer, failed: false }, columns.unsigned_abs(), rows.unsigned_abs());
+    let mut info = Info::with_size(columns.unsigned_abs(), rows.unsigned_abs());
+    // The chunk of primaries has no sign: those such as ACES2065-1's blue take a profile.
+    info.icc_profile =
+        tag.filter(|tag| has_negative(&tag.primaries)).and_then(|tag| icc_write::profile(&tag)).map(Cow::Owned);
+    let mut encoder = Encoder::with_info(Steadfast { writer, failed: false }, info).map_err(problem)?;
     encoder.set_color(match picture.channels {
         Channels::Rgb => ColorType::Rgb,
         Channels::Rgba => ColorType::Rgba,
@@ -188,13 +197,16 @@ fn set_chunks<W: Write>(tag: &ColourTag, encoder: &mut Encoder<'_, W>) {
         OutputTransfer::Gamma24 => 1.0 / 2.4,
         OutputTransfer::Linear => 1.0,
     }));
-    let Chromaticities { red, green, blue, white } = tag.primaries;
-    let pair = |[x, y]: [f32; 2]| (x, y);
-    // The chunk has no sign: primaries such as ACES2065-1's blue cannot be said.
-    if [red, green, blue, white].as_flattened().iter().any(|v| *v < 0.0) {
+    if has_negative(&tag.primaries) {
         return;
     }
+    let Chromaticities { red, green, blue, white } = tag.primaries;
+    let pair = |[x, y]: [f32; 2]| (x, y);
     encoder.set_source_chromaticities(SourceChromaticities::new(pair(white), pair(red), pair(green), pair(blue)));
+}
+
+fn has_negative(Chromaticities { red, green, blue, white }: &Chromaticities) -> bool {
+    [red, green, blue, white].into_iter().flatten().any(|v| *v < 0.0)
 }
 
 /// The bytes of `cICP`: primaries, transfer, RGB, full range; where H.273 has both code points.

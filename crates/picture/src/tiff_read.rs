@@ -7,8 +7,10 @@ use crate::icc;
 use crate::{
     alpha,
     band::{BAND_PIXELS, Band, Bands, ReadingMemory, RowMut, blocks_in_band},
-    description::{Channels, Description, Source, StoredAlpha, TiffSamples},
+    description::{Channels, Chromaticities, Description, Source, StoredAlpha, TiffSamples},
     error::{Error, TiffProblem},
+    exif,
+    file_colours::FileColours,
     input::Input,
     limits::Limits,
     orientation::{Orientation, upright},
@@ -16,6 +18,7 @@ use crate::{
     tiff_directory::{Directory, TiffFile},
     tiff_header::{Colours, Coverage, Header, Sample, tag},
     tiff_pages,
+    transfer::Transfer,
 };
 
 /// Samples that one task widens: for fewer, handing them to a thread takes longer than the work.
@@ -49,18 +52,37 @@ pub(crate) fn open<'a>(
     upright(orientation, description, Box::new(bands), limits)
 }
 
-/// What the ICC profile of a page says of its colours.
+/// What a page says of its colours: by its ICC profile, else by its EXIF, else by the program that wrote it.
 fn colours(file: &mut TiffFile<Input<'_>>, page: &Directory, description: &mut Description) {
     #[cfg(feature = "icc")]
     match file.bytes(page, tag::ICC_PROFILE, icc::MAX_BYTES as u64) {
         Ok(Some(profile)) => match icc::colours(&profile) {
-            Ok(colours) => colours.describe(description),
+            Ok(colours) => return colours.describe(description),
             Err(note) => description.notes.push(note),
         },
         Ok(None) => {}
         Err(_) => description.notes.push("left out the file's ICC profile, which is too large or cut off".to_owned()),
     }
+    // EXIF is of a camera's own picture, and programs copy it beside floats of any space.
+    if let Source::Tiff { samples: TiffSamples::Integer, .. } = description.source {
+        if let Some(colours) = exif::colours(file, page) {
+            colours.describe(description);
+        }
+        return;
+    }
+    let software = file.bytes(page, tag::SOFTWARE, MAX_SOFTWARE).ok().flatten().unwrap_or_default();
+    if software.starts_with(b"RawTherapee") && !page.has(tag::ICC_PROFILE) {
+        let colours = FileColours {
+            primaries: Some(Chromaticities::BT709),
+            transfer: Some(Transfer::Srgb),
+            said_by: "its writer, RawTherapee, whose files without a profile are sRGB".to_owned(),
+        };
+        colours.describe(description);
+    }
 }
+
+/// Most bytes of a program's name.
+const MAX_SOFTWARE: u64 = 256;
 
 /// The strips of a TIFF, or its rows of tiles.
 struct TiffBands<'a> {

@@ -18,8 +18,6 @@ pub(crate) enum ExrProblem {
     Channels {
         found: String,
     },
-    /// Colour as luminance and two differences.
-    LuminanceChroma,
     /// Layers of which none is the picture.
     NoBeauty {
         found: String,
@@ -88,7 +86,6 @@ impl ExrProblem {
         match self {
             Self::DeepData
             | Self::Channels { .. }
-            | Self::LuminanceChroma
             | Self::NoBeauty { .. }
             | Self::NoLayer { .. }
             | Self::NoPart { .. }
@@ -110,23 +107,24 @@ impl fmt::Display for ExrProblem {
             }
             Self::DeepData => f.write_str("the file holds deep data, expected a flat picture (flatten it first)"),
             Self::Channels { found } => {
-                write!(f, "found the channels {found}, expected R, G and B, or X, Y and Z, or Y, or a single one")
+                write!(
+                    f,
+                    "found the channels {found}, expected R, G and B, or X, Y and Z, or Y, RY and BY, or Y, or a single one"
+                )
             }
-            Self::LuminanceChroma => f.write_str(
-                "found luminance and chroma (Y, RY and BY), expected R, G and B (`exrmaketiled`, `oiiotool` or the program \
-                 that wrote it can convert it)",
-            ),
             Self::NoBeauty { found } => write!(
                 f,
                 "found {found}, none of which is called a finished picture, expected R, G and B without a layer name or \
                  a layer to be chosen"
             ),
-            Self::NoLayer { asked, found } => write!(f, "there is no layer `{asked}` that makes a picture, found {found}"),
+            Self::NoLayer { asked, found } => {
+                write!(f, "there is no layer `{asked}` that makes a picture, found {found}")
+            }
             Self::NoPart { asked, found } => write!(f, "there is no part {asked}, found the parts {found}"),
             Self::Compression { found } => write!(f, "found {found} compression, expected {COMPRESSIONS}"),
             Self::Subsampled { channel, step: [x, y] } => write!(
                 f,
-                "the channel `{channel}` is subsampled {x} x {y}, expected a sample of every channel at every pixel"
+                "the channel `{channel}` is subsampled {x} x {y}, expected a sample at every pixel (RY and BY: or at every other)"
             ),
             Self::TileSide { found: [width, height], max } => {
                 write!(f, "a tile is {width} x {height} pixels, expected sides up to {max}")

@@ -14,6 +14,10 @@ fn profiles_chunks_and_tags_are_understood() {
         ("jpeg/display-p3.jpg", Some(Chromaticities::P3_D65), Some(Transfer::Srgb)),
         ("jpeg/baseline.jpg", None, None),
         ("tiff/linear-rec2020.tif", Some(Chromaticities::BT2020), Some(Transfer::Linear)),
+        ("tiff/rawtherapee-without-profile.tif", Some(Chromaticities::BT709), Some(Transfer::Srgb)),
+        ("tiff/exif-srgb.tif", Some(Chromaticities::BT709), Some(Transfer::Srgb)),
+        ("tiff/exif-adobe-rgb.tif", Some(Chromaticities::ADOBE_RGB), Some(adobe_power.clone())),
+        ("tiff/exif-beside-floats.tif", None, None),
         ("tiff/adobe-rgb.tif", Some(Chromaticities::ADOBE_RGB), Some(adobe_power.clone())),
         ("png/icc-srgb.png", Some(Chromaticities::BT709), Some(Transfer::Srgb)),
         ("png/icc-grey.png", None, Some(adobe_power)),
@@ -58,7 +62,7 @@ fn a_profile_that_is_not_used_is_named() {
 #[test]
 fn our_own_tags_are_read_again() {
     let (p3, odd) = (Chromaticities::P3_D65, Chromaticities { red: [0.7, 0.3], ..Chromaticities::BT709 });
-    for primaries in [Chromaticities::BT709, Chromaticities::BT2020, p3, odd] {
+    for primaries in [Chromaticities::BT709, Chromaticities::BT2020, p3, odd, Chromaticities::AP0] {
         for (written, read) in [
             (OutputTransfer::Srgb, Transfer::Srgb),
             (OutputTransfer::Gamma24, Transfer::Power(2.4)),

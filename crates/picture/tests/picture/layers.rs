@@ -126,6 +126,29 @@ fn xyz_is_light_without_a_layer_and_a_direction_with_one() {
     assert_eq!(colour(&both), [1.0, 2.0, 3.0]);
 }
 
+/// Pixels as `RgbaInputFile` of OpenEXR 3.1.5 gives them, which rounds to half floats in between: an eleven-bit significand.
+#[test]
+fn luminance_and_chroma_make_colours() {
+    for name in ["chroma-no.exr", "chroma-piz.exr", "chroma-rle.exr", "chroma-zips.exr", "chroma-dwaa.exr"] {
+        let picture = read_bytes(&corpus(name)).unwrap();
+        assert_eq!((picture.width, picture.height), (20, 34));
+        for (y, x, expected) in [
+            (5, 7, [0.478_271_5, 0.159_912_1, 0.497_070_3]),
+            (3, 12, [0.697_265_6, 0.122_619_6, 0.492_187_5]),
+            (25, 13, [0.255_371_1, 0.249_267_6, 0.241_455_1]),
+            (33, 19, [1.043_945_3, 0.828_613_3, 0.405_761_7]),
+            (15, 6, [0.933_593_8, 0.090_332, 0.089_599_6]),
+        ] {
+            let found = picture.rgb[y * 20 + x];
+            let near = |channel: usize| (found[channel] - expected[channel]).abs() < 1e-3;
+            assert!((0..3).all(near), "{name}, row {y}, column {x}: {found:?}");
+        }
+        assert_eq!(picture.notes, ["made red, green and blue of luminance and chroma (Y, RY and BY)"]);
+    }
+    let sentence = refusal(&corpus("refused-chroma-b44.exr"));
+    assert!(sentence.starts_with("found B44, with subsampled chroma, compression, expected"), "{sentence}");
+}
+
 #[test]
 fn what_is_packed_in_a_later_way_is_named() {
     let expected = "found Zstandard compression, expected none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA or DWAB";

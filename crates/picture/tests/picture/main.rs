@@ -8,6 +8,7 @@ mod damage;
 mod exr;
 mod jpeg_and_radiance;
 mod layers;
+mod others;
 mod plain;
 mod refusals;
 mod tiff;

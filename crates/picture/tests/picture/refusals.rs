@@ -113,10 +113,10 @@ fn channels_that_make_no_picture_are_listed() {
     let refused = |channels: &[(&str, FlatSamples)]| refusal(&file(vec![layer(None, [2, 2], stored, channels)]));
     assert_eq!(
         refused(&[("R", value()), ("B", value()), ("Z", value())]),
-        "found the channels B, R, Z, expected R, G and B, or X, Y and Z, or Y, or a single one"
+        "found the channels B, R, Z, expected R, G and B, or X, Y and Z, or Y, RY and BY, or Y, or a single one"
     );
     assert!(refused(&[("a.R", value()), ("b.G", value()), ("c.B", value())]).contains("a.R, b.G, c.B"));
-    assert!(refused(&[("BY", value()), ("RY", value()), ("Y", value())]).contains("luminance and chroma"));
+    assert!(refused(&[("BY", value()), ("RY", value())]).starts_with("found the channels BY, RY, expected"));
     let many: Vec<String> = (0..60).map(|index| format!("c{index:02}")).collect();
     let many: Vec<(&str, FlatSamples)> = many.iter().map(|name| (name.as_str(), value())).collect();
     assert!(refused(&many).contains("c23 and 36 more"));

@@ -181,7 +181,15 @@ fn coding_of(picture: &Description, named: Option<InputCoding>, notes: &mut Vec<
             Coding::Named(coding)
         }
         (None, Some(transfer)) => Coding::OfFile(transfer.clone()),
-        (None, None) if floats => Coding::Named(InputCoding::Display(TransferCurve::Linear)),
+        (None, None) if floats => {
+            if matches!(picture.source, Source::Tiff { .. }) {
+                notes.push(
+                    "the file does not say what its floats are: taken for linear light (--input-coding says otherwise)"
+                        .to_owned(),
+                );
+            }
+            Coding::Named(InputCoding::Display(TransferCurve::Linear))
+        }
         (None, None) => {
             notes.push(
                 "the file does not say how its integers are coded: taken for sRGB (--input-coding says otherwise)"

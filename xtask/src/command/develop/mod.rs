@@ -34,7 +34,7 @@ use crate::{Report, atomic_file, folders};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Picture: scene-linear EXR, float TIFF or Radiance, or TIFF, PNG or JPEG, whose coding is undone; many as 'shot.####.exr', shot.%04d.exr or '*.exr'
+    /// Picture: scene-linear EXR, float TIFF or Radiance, or TIFF, PNG or JPEG, whose coding is undone; many as 'shot.####.exr', shot.@@@@.exr, 'shot.$F4.exr', shot.%04d.exr or '*.exr'
     #[arg(value_name = "IN")]
     input: PathBuf,
     /// Developed picture: .png, .tif or .jpg (display-coded) or .exr (linear, display-referred, not clipped, as floats of .tif);
@@ -72,8 +72,8 @@ pub(crate) struct Arguments {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Many pictures (docs/using.md, docs/farm.md)")]
 struct Many {
-    /// Frames, such as 1001-1100, 1001-1010,1020 or 1001-1100x2 [default: all that are there]
-    #[arg(long, value_name = "FRAMES")]
+    /// Frames, such as 1001-1100, 1001-1010,1020, 1001-1100x2, -10-10 or 1100-1001 [default: all that are there]
+    #[arg(long, value_name = "FRAMES", allow_hyphen_values = true)]
     frames: Option<FrameNumbers>,
     /// Develop only part K of N, every Nth picture from the Kth on
     #[arg(long, value_name = "K/N")]

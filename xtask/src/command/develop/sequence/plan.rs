@@ -82,7 +82,7 @@ pub(crate) fn plan(
         notes.extend(gaps(&pieces));
     }
     let frames: Vec<Frame> =
-        pieces.iter().map(|piece| Frame { input: from.path(piece), output: to.path(piece) }).collect();
+        pieces.iter().map(|piece| Frame { input: there(&from, piece), output: to.path(piece) }).collect();
     if same_folder(&from, &to) {
         check_apart(&frames)?;
     }
@@ -93,13 +93,19 @@ pub(crate) fn plan(
     Ok(Some(Plan { frames, numbered: matches!(from.place, Place::Number { .. }), notes }))
 }
 
+/// The path of a picture that comes in, as the sign of its number is written there.
+fn there(from: &Pattern, piece: &Piece) -> PathBuf {
+    let usual = from.path(piece);
+    from.other_path(piece).filter(|other| other.is_file() && !usual.is_file()).unwrap_or(usual)
+}
+
 fn same_kind(from: &Pattern, to: &Pattern) -> bool {
     std::mem::discriminant(&from.place) == std::mem::discriminant(&to.place)
 }
 
 fn sign(pattern: &Pattern) -> &'static str {
     match pattern.place {
-        Place::Number { .. } => "#### (or %04d)",
+        Place::Number { .. } => "#### (or @@@@, $F4, %04d)",
         Place::Name => "*",
     }
 }
@@ -116,7 +122,13 @@ fn listed(from: &Pattern) -> Result<Vec<Piece>> {
     for entry in fs::read_dir(folder).with_context(unreadable)? {
         let name = entry.with_context(unreadable)?.file_name();
         match name.to_str() {
-            Some(name) => pieces.extend(from.piece_of(name)),
+            Some(name) => {
+                if let Some(piece) = from.piece_of(name)
+                    && !pieces.insert(piece)
+                {
+                    bail!("{}: two files have the number of this one, expected one", folder.join(name).display());
+                }
+            }
             None if from.piece_of(&name.to_string_lossy()).is_some() => {
                 bail!("{}: the name is not UTF-8, expected one that is", folder.join(name).display())
             }
@@ -129,7 +141,7 @@ fn listed(from: &Pattern) -> Result<Vec<Piece>> {
 /// The numbers that are missing between the first and the last.
 fn gaps(pieces: &[Piece]) -> Option<String> {
     const SPAN: usize = 1_000_000;
-    let numbers: BTreeSet<u32> = pieces
+    let numbers: BTreeSet<i32> = pieces
         .iter()
         .filter_map(|piece| match piece {
             Piece::Number(number) => Some(*number),
@@ -137,7 +149,7 @@ fn gaps(pieces: &[Piece]) -> Option<String> {
         })
         .collect();
     let (first, last) = (*numbers.first()?, *numbers.last()?);
-    let missing: Vec<u32> = (first..=last).filter(|number| !numbers.contains(number)).take(SPAN).collect();
+    let missing: Vec<i32> = (first..=last).filter(|number| !numbers.contains(number)).take(SPAN).collect();
     (!missing.is_empty()).then(|| {
         format!("frames {} are not there (with --frames {first}-{last} they would count as failed)", ranges(&missing))
     })
@@ -212,6 +224,26 @@ mod tests {
         // A file of this very name is one picture.
         fs::write(folder.join("c.####.exr"), "").unwrap();
         assert_eq!(planned(folder, "c.####.exr", "out/b.png", None).unwrap(), None);
+    }
+
+    #[test]
+    fn frames_before_0_are_found_as_they_are_written() {
+        let folder = with_files(&["a.-0002.exr", "a.-001.exr", "a.0000.exr"]);
+        let folder = folder.path();
+        let expected = [
+            pair("a.-0002.exr", "out/a.-002.png"),
+            pair("a.-001.exr", "out/a.-001.png"),
+            pair("a.0000.exr", "out/a.0000.png"),
+        ];
+        for frames in [None, Some("-2-0")] {
+            assert_eq!(planned(folder, "a.@@@@.exr", "out/a.%04d.png", frames).unwrap().unwrap(), expected);
+        }
+        let mut back = planned(folder, "a.$F4.exr", "out/a.%04d.png", Some("0--2")).unwrap().unwrap();
+        back.reverse();
+        assert_eq!(back, expected);
+        fs::write(folder.join("a.-0001.exr"), "").unwrap();
+        let message = planned(folder, "a.####.exr", "out/a.####.png", None).unwrap_err().to_string();
+        assert!(message.contains("two files have the number"), "{message}");
     }
 
     #[test]
