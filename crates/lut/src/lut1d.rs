@@ -75,6 +75,17 @@ impl Lut1d {
         self.entries.len()
     }
 
+    /// The least and the largest entry of each channel: what is read lies between them.
+    pub(crate) fn ends(&self) -> [[f32; 2]; 3] {
+        let mut ends = [[f32::INFINITY, f32::NEG_INFINITY]; 3];
+        for entry in &self.entries {
+            for (ends, v) in ends.iter_mut().zip(entry) {
+                *ends = [ends[0].min(*v), ends[1].max(*v)];
+            }
+        }
+        ends
+    }
+
     /// Reads each channel's curve at that channel's input.
     #[inline]
     pub fn apply(&self, rgb: [f32; 3]) -> [f32; 3] {

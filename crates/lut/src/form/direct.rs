@@ -4,9 +4,10 @@ use crate::exponential_sum::ExponentialSum;
 use crate::form::develop::{Develop, DevelopCurves};
 use crate::form::expose::Expose;
 use crate::kernel::block::{Block, BlockMap};
+use crate::kernel::coding::code;
 use crate::kernel::curves::Curves;
 use crate::kernel::expose::expose;
-use crate::kernel::sum::{coded_sum, log2_of_sum};
+use crate::kernel::sum::{Exponentials, log2_of_light};
 use crate::lut1d::Lut1d;
 use crate::number::Number;
 use crate::scene_light::log2_above_floor;
@@ -39,7 +40,15 @@ use fearless_simd::Level;
 pub struct DirectForm {
     parts: DirectParts,
     develop: DevelopCurves,
-    print_curves: Option<Curves>,
+    print: Option<PrintSteps>,
+    projection: Exponentials,
+}
+
+/// A [`DirectPrint`] as the loops compute it.
+#[derive(Clone, Debug, PartialEq)]
+struct PrintSteps {
+    exposure: Exponentials,
+    curves: Curves,
 }
 
 /// What a [`DirectForm`] is made of, in the order in which it is applied.
@@ -111,8 +120,14 @@ impl DirectForm {
         parts.expose.check()?;
         parts.develop.check()?;
         let develop = DevelopCurves::new(&parts.develop);
-        let print_curves = parts.print.as_ref().map(|print| Curves::new(&print.curves));
-        Ok(Self { develop, print_curves, parts })
+        let first = parts.develop.curves.ends();
+        let print = parts.print.as_ref().map(|DirectPrint { exposure, curves }| PrintSteps {
+            exposure: Exponentials::new(exposure, first),
+            curves: Curves::new(curves),
+        });
+        let last = parts.print.as_ref().map_or(first, |print| print.curves.ends());
+        let projection = Exponentials::new(&parts.projection, last);
+        Ok(Self { develop, print, projection, parts })
     }
 
     /// What it is made of.
@@ -143,11 +158,13 @@ impl BlockMap for DirectForm {
     fn map_block(&self, level: Level, block: &mut Block, count: usize) {
         expose(level, &self.parts.expose, block, count);
         self.develop.apply(level, block, count);
-        if let (Some(print), Some(curves)) = (&self.parts.print, &self.print_curves) {
-            log2_of_sum(level, print.exposure.terms(), block, count);
+        if let Some(PrintSteps { exposure, curves }) = &self.print {
+            exposure.apply(level, block, count);
+            log2_of_light(level, block, count);
             curves.apply(level, block, count);
         }
-        coded_sum(level, self.parts.projection.terms(), &self.parts.coding.numbers(), block, count);
+        self.projection.apply(level, block, count);
+        code(level, &self.parts.coding.numbers(), block, count);
     }
 }
 

@@ -1,7 +1,7 @@
 use fearless_simd::Level;
 use fearless_simd::prelude::*;
 
-use super::block::{Block, load_rgb, map_channels, store, store_indices, vector_starts};
+use super::block::{Block, load_rgb, map_channels, map_plane, store, store_indices, vector_starts};
 use super::dispatch::dispatch;
 use super::log2_exp2::log2s;
 use super::matrix::above_zero;
@@ -27,13 +27,18 @@ pub(super) fn find_cells(
     how: Interpolation,
 ) {
     let cells = (size - 1) as f32;
-    dispatch!(level, simd => match axes {
-        Axes::Coordinates => cells_with(simd, block, count, size, how, Scaled { cells }),
+    match axes {
+        Axes::Coordinates => dispatch!(level, simd => cells_with(simd, block, count, size, how, Scaled { cells })),
         Axes::Light(&LogNumbers { per_offset, per_stop, .. }) => {
-            let shaped = Shaped { per_offset, per_stop: per_stop * cells, cells };
-            cells_with(simd, block, count, size, how, shaped);
+            let shaper = Shaped { per_offset, per_stop: per_stop * cells, cells };
+            dispatch!(level, simd => for plane in &mut block.rgb {
+                map_plane(simd, plane, count,
+                    #[inline(always)]
+                    |value: _| shaper.position(simd, value));
+            });
+            dispatch!(level, simd => cells_with(simd, block, count, size, how, InCells));
         }
-    });
+    }
 }
 
 /// From a colour's channel to a position along an axis of the table, in cells.
@@ -41,6 +46,7 @@ trait Position: Copy {
     fn position<S: Simd>(self, simd: S, value: S::f32s) -> S::f32s;
 }
 
+/// Coordinates.
 #[derive(Clone, Copy)]
 struct Scaled {
     cells: f32,
@@ -53,6 +59,18 @@ impl Position for Scaled {
     }
 }
 
+/// Positions already.
+#[derive(Clone, Copy)]
+struct InCells;
+
+impl Position for InCells {
+    #[inline(always)]
+    fn position<S: Simd>(self, _: S, value: S::f32s) -> S::f32s {
+        value
+    }
+}
+
+/// Light.
 #[derive(Clone, Copy)]
 struct Shaped {
     per_offset: f32,

@@ -1,10 +1,10 @@
 use fearless_simd::Level;
 use fearless_simd::prelude::*;
 
-use super::block::{Block, load_rgb, map_channels, store_rgb, vector_starts};
+use super::block::{Block, Plane, load, load_rgb, map_channels, store, store_rgb, vector_starts};
 use super::dispatch::dispatch;
 use super::log2_exp2::log2s;
-use super::matrix::{above_zero, times, zero_for_nan};
+use super::matrix::{Splat, above_zero, zero_for_nan};
 use crate::form::expose::{Expose, LOG2_E, MOST_NEGATIVE, NegativeLight};
 use crate::scene_light::{IDENTITY, LOG_FLOOR, Rows, SCENE_MAX};
 
@@ -15,59 +15,84 @@ pub(crate) fn expose(level: Level, expose: &Expose, block: &mut Block, count: us
 
 #[inline(always)]
 fn expose_with<S: Simd>(simd: S, Expose { input, matrix, negative }: &Expose, block: &mut Block, count: usize) {
-    let is_identity = *input == IDENTITY;
-    let compresses = *negative == NegativeLight::Compress;
-    let floor = S::f32s::splat(simd, LOG_FLOOR);
-    for i in vector_starts::<S>(count) {
-        let mut light = load_rgb(simd, &block.rgb, i);
-        if !is_identity {
-            light = map_channels(
-                light,
-                #[inline(always)]
-                |v| zero_for_nan(simd, v).max(-SCENE_MAX).min(SCENE_MAX),
-            );
-            light = times(simd, input, [0.0; 3], light);
+    let Block { rgb, scratch, .. } = block;
+    let [exposures @ .., _] = &mut scratch.weight;
+    if *input != IDENTITY {
+        convert(simd, input, rgb, count);
+    }
+    let some_are_negative = expose_positive(simd, matrix, rgb, exposures, count);
+    // Few pictures have such light, and those that do have it in few places.
+    let compresses = *negative == NegativeLight::Compress && some_are_negative;
+    if compresses {
+        lower_by_negative(simd, matrix, rgb, exposures, count);
+    }
+    for (plane, exposure) in rgb.iter_mut().zip(exposures.iter()) {
+        for i in vector_starts::<S>(count) {
+            let log2 = log2s(simd, load(simd, exposure, i));
+            store::<S>(if compresses { log2 - load(simd, plane, i) } else { log2 }, plane, i);
         }
+    }
+}
+
+/// The picture's primaries to those of the exposure matrix.
+#[inline(always)]
+fn convert<S: Simd>(simd: S, input: &Rows, rgb: &mut [Plane; 3], count: usize) {
+    let input = Splat::new(simd, input);
+    for i in vector_starts::<S>(count) {
+        let light = map_channels(
+            load_rgb(simd, rgb, i),
+            #[inline(always)]
+            |v| zero_for_nan(simd, v).max(-SCENE_MAX).min(SCENE_MAX),
+        );
+        store_rgb::<S>(input.times(light), rgb, i);
+    }
+}
+
+/// What the positive part of the light exposes each layer to, at least [`LOG_FLOOR`]; whether any of the light may be negative.
+#[inline(always)]
+fn expose_positive<S: Simd>(
+    simd: S,
+    matrix: &Rows,
+    light: &[Plane; 3],
+    exposures: &mut [Plane; 3],
+    count: usize,
+) -> bool {
+    let matrix = Splat::new(simd, matrix);
+    let mut signs = S::u32s::splat(simd, 0);
+    for i in vector_starts::<S>(count) {
+        let light = load_rgb(simd, light, i);
+        signs = signs | light[0].bitcast::<S::u32s>() | light[1].bitcast::<S::u32s>() | light[2].bitcast::<S::u32s>();
         let positive = map_channels(
             light,
             #[inline(always)]
             |v| above_zero(simd, v).min(SCENE_MAX),
         );
-        let exposure = map_channels(
-            times(simd, matrix, [0.0; 3], positive),
+        let exposed = map_channels(
+            matrix.times(positive),
             #[inline(always)]
-            |e: S::f32s| e.max(floor),
+            |e: S::f32s| e.max(LOG_FLOOR),
         );
-        let mut log2 = map_channels(
-            exposure,
-            #[inline(always)]
-            |e: S::f32s| log2s(simd, e),
-        );
-        // Few pictures have such light, and those that do have it in few places.
-        if compresses && any_below_zero(simd, light) {
-            let negative = map_channels(
-                light,
-                #[inline(always)]
-                |v| above_zero(simd, -v).min(SCENE_MAX),
-            );
-            let negative = times(simd, matrix, [0.0; 3], negative);
-            for ((log2, exposure), negative) in log2.iter_mut().zip(exposure).zip(negative) {
-                *log2 -= negative.max(0.0).min(exposure * MOST_NEGATIVE) / exposure * LOG2_E;
-            }
-        }
-        store_rgb::<S>(log2, &mut block.rgb, i);
+        store_rgb::<S>(exposed, exposures, i);
     }
+    signs.simd_ge(1 << 31).any_true()
 }
 
+/// Light becomes what its negative part lowers the log2 exposures by, 0 where there is none.
 #[inline(always)]
-fn any_below_zero<S: Simd>(simd: S, light: [S::f32s; 3]) -> bool {
-    let zero = S::f32s::splat(simd, 0.0);
-    let [red, green, blue] = map_channels(
-        light,
-        #[inline(always)]
-        |v: S::f32s| v.simd_lt(zero),
-    );
-    (red | green | blue).any_true()
+fn lower_by_negative<S: Simd>(simd: S, matrix: &Rows, light: &mut [Plane; 3], exposures: &[Plane; 3], count: usize) {
+    let matrix = Splat::new(simd, matrix);
+    for i in vector_starts::<S>(count) {
+        let negative = map_channels(
+            load_rgb(simd, light, i),
+            #[inline(always)]
+            |v| above_zero(simd, -v).min(SCENE_MAX),
+        );
+        let mut lowered = matrix.times(negative);
+        for (lowered, exposure) in lowered.iter_mut().zip(load_rgb(simd, exposures, i)) {
+            *lowered = lowered.max(0.0).min(exposure * MOST_NEGATIVE) / exposure * LOG2_E;
+        }
+        store_rgb::<S>(lowered, light, i);
+    }
 }
 
 /// A matrix and an offset.
@@ -77,8 +102,15 @@ pub(crate) fn affine(level: Level, rows: &Rows, offset: [f32; 3], block: &mut Bl
 
 #[inline(always)]
 fn affine_with<S: Simd>(simd: S, rows: &Rows, offset: [f32; 3], block: &mut Block, count: usize) {
+    let (matrix, offset) = (
+        Splat::new(simd, rows),
+        map_channels(
+            offset,
+            #[inline(always)]
+            |v| S::f32s::splat(simd, v),
+        ),
+    );
     for i in vector_starts::<S>(count) {
-        let colour = load_rgb(simd, &block.rgb, i);
-        store_rgb::<S>(times(simd, rows, offset, colour), &mut block.rgb, i);
+        store_rgb::<S>(matrix.times_plus(load_rgb(simd, &block.rgb, i), offset), &mut block.rgb, i);
     }
 }

@@ -20,7 +20,13 @@ pub(super) fn log2s<S: Simd>(simd: S, x: S::f32s) -> S::f32s {
 #[inline(always)]
 pub(super) fn exp2s<S: Simd>(simd: S, x: S::f32s) -> S::f32s {
     let [low, high] = EXP2_ENDS;
-    let x = x.max(low).min(high);
+    exp2s_within(simd, x.max(low).min(high))
+}
+
+/// [`exp2s`] of exponents that lie within its ends, -126 and 126. A little below them it is 0 or nearly so, a little above it is still
+/// a number: logarithms of floats are in range.
+#[inline(always)]
+pub(super) fn exp2s_within<S: Simd>(simd: S, x: S::f32s) -> S::f32s {
     let rounded = x + ROUNDER;
     let f = x - (rounded - ROUNDER);
     let mut quotient = S::f32s::splat(simd, EXP2[4]);

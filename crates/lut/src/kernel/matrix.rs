@@ -2,15 +2,46 @@ use fearless_simd::prelude::*;
 
 use crate::scene_light::Rows;
 
-/// `rows` times a colour of each lane, plus `offset`.
-#[inline(always)]
-pub(super) fn times<S: Simd>(simd: S, rows: &Rows, offset: [f32; 3], [x, y, z]: [S::f32s; 3]) -> [S::f32s; 3] {
-    let mut out = [x, y, z];
-    for ((out, row), offset) in out.iter_mut().zip(rows).zip(offset) {
-        let sum = x.mul_add(row[0], S::f32s::splat(simd, offset));
-        *out = z.mul_add(row[2], y.mul_add(row[1], sum));
+/// A matrix, each number in all lanes of a vector.
+///
+/// Made before a loop: what the loop stores to might be where the matrix lies for all the compiler knows, and then it loads the
+/// numbers again for every vector.
+#[derive(Clone, Copy)]
+pub(super) struct Splat<S: Simd>([[S::f32s; 3]; 3]);
+
+impl<S: Simd> Splat<S> {
+    #[inline(always)]
+    pub(super) fn new(simd: S, rows: &Rows) -> Self {
+        let mut all = [[S::f32s::splat(simd, 0.0); 3]; 3];
+        for (all, row) in all.iter_mut().zip(rows) {
+            for (all, v) in all.iter_mut().zip(row) {
+                *all = S::f32s::splat(simd, *v);
+            }
+        }
+        Self(all)
     }
-    out
+
+    /// The matrix times a colour of each lane.
+    #[inline(always)]
+    pub(super) fn times(self, [x, y, z]: [S::f32s; 3]) -> [S::f32s; 3] {
+        let [red, green, blue] = self.0;
+        [
+            z.mul_add(red[2], y.mul_add(red[1], x * red[0])),
+            z.mul_add(green[2], y.mul_add(green[1], x * green[0])),
+            z.mul_add(blue[2], y.mul_add(blue[1], x * blue[0])),
+        ]
+    }
+
+    /// The same, added to another colour.
+    #[inline(always)]
+    pub(super) fn times_plus(self, [x, y, z]: [S::f32s; 3], plus: [S::f32s; 3]) -> [S::f32s; 3] {
+        let [red, green, blue] = self.0;
+        [
+            z.mul_add(red[2], y.mul_add(red[1], x.mul_add(red[0], plus[0]))),
+            z.mul_add(green[2], y.mul_add(green[1], x.mul_add(green[0], plus[1]))),
+            z.mul_add(blue[2], y.mul_add(blue[1], x.mul_add(blue[0], plus[2]))),
+        ]
+    }
 }
 
 /// The larger of the number and 0; 0 for NaN.
