@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
+use onelight::spectra::SceneWhite;
 use onelight::{
     Aim, Approach, DyeModel, Films, FormatVersion, Look, Process, ProcessKeys, SheetKeys, Stock, StockKind, StockRef,
     TransferCurve, WorkingSpace, stock,
@@ -39,6 +40,10 @@ pub(crate) struct LookArguments {
     /// How densities become amounts of dye [default: wedge]
     #[arg(long, value_parser = words::<DyeModel>())]
     dyes: Option<DyeModel>,
+    /// Light that becomes neutral before the film, in K with a tint (positive is greener than a black body), such as 3200 or 5600,10;
+    /// none leaves white at 6500 K [default: none]
+    #[arg(long, value_name = "KELVIN[,TINT]|none", value_parser = scene_white, allow_hyphen_values = true)]
+    scene_white: Option<SceneLight>,
     /// Primaries of the scene-linear picture [default: what an EXR's chromaticities say, else the look's, else srgb]
     #[arg(long, value_parser = words::<WorkingSpace>())]
     input_space: Option<WorkingSpace>,
@@ -50,6 +55,14 @@ pub(crate) struct LookArguments {
     output_coding: Option<TransferCurve>,
     #[command(flatten)]
     switches: Switches,
+}
+
+/// The light of a scene that is to look white; none leaves white where it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct SceneLight(Option<SceneWhite>);
+
+fn scene_white(text: &str) -> Result<SceneLight, String> {
+    ProcessKeys::parse_scene_white(text).map(SceneLight).map_err(|error| error.to_string())
 }
 
 /// A look that was chosen: its description, and the stocks where it names data sheets of one's own.
@@ -73,6 +86,12 @@ impl ChosenLook {
     /// Compiles the look, with the data sheets of one's own that it uses.
     pub(crate) fn look(&self) -> Result<Look> {
         Ok(self.films.as_ref().map_or_else(|| self.process.look(), |films| self.process.look_with(films))?)
+    }
+
+    /// Exposes the scene by so many stops, where the command line says how many, instead of by what the description says.
+    pub(crate) fn expose(&mut self, ev: Option<f64>) {
+        let spaces = self.process.spaces_mut();
+        spaces.ev = ev.unwrap_or(spaces.ev);
     }
 
     /// As the measurements take it.
@@ -202,6 +221,7 @@ impl LookArguments {
         };
         keys.aim = self.aim.unwrap_or(keys.aim);
         keys.dyes = self.dyes.unwrap_or(keys.dyes);
+        keys.scene_white = self.scene_white.map_or(keys.scene_white, |light| light.0);
         keys.input_space = self.input_space.unwrap_or(keys.input_space);
         keys.output_space = self.output_space.unwrap_or(keys.output_space);
         keys.output_coding = self.output_coding.unwrap_or(keys.output_coding);

@@ -201,7 +201,18 @@ mod tests {
         let (plain, turned) = (ProcessKeys::default(), process(&arguments));
         let keys = |keys: &ProcessKeys| keys.to_toml().parse::<toml::Table>().unwrap();
         let (before, after) = (keys(&plain), keys(&turned));
-        let elsewhere = ["version", "camera", "print", "aim", "dyes", "input_space", "output_space", "output_coding"];
+        let elsewhere = [
+            "version",
+            "camera",
+            "print",
+            "aim",
+            "dyes",
+            "ev",
+            "scene_white",
+            "input_space",
+            "output_space",
+            "output_coding",
+        ];
         for (key, value) in &after {
             assert_eq!(before[key] == *value, elsewhere.contains(&key.as_str()), "{key}");
         }

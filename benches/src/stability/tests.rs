@@ -48,6 +48,7 @@ fn hard_inputs_break_no_limit_in_other_spaces() {
         input_space: WorkingSpace::AcesCg,
         output_space: WorkingSpace::P3,
         output_coding: TransferCurve::Gamma24,
+        ..ColourSpaces::default()
     };
     kept(&process);
 }

@@ -173,6 +173,8 @@ pub struct Certifier<'a> {
     look: &'a Look,
     difference: DisplayDifference,
     luminance: Vector3<f64>,
+    /// Scene-linear RGB of what the film gets as white.
+    white: [f64; 3],
     coding: Option<Coordinate>,
 }
 
@@ -183,7 +185,8 @@ impl<'a> Certifier<'a> {
     /// None for the built-in spaces.
     pub fn new(look: &'a Look) -> Result<Self, Error> {
         let (difference, luminance) = (look.difference()?, look.spaces().luminance()?);
-        Ok(Self { look, difference, luminance, coding: None })
+        let white = look.spaces().white_rgb()?;
+        Ok(Self { look, difference, luminance, white, coding: None })
     }
 
     /// The same for a form that takes a coding of light ([`Baked::coordinate`](crate::baked::Baked::coordinate)). Exposures end
@@ -267,8 +270,10 @@ impl<'a> Certifier<'a> {
     /// The look's own tint of greys.
     #[must_use]
     pub fn tint(&self) -> Tint {
+        let white = self.white;
         let chroma = |stops: f64| {
-            let [_, a, b] = self.difference.lab(self.look.develop_linear([MID_GREY * stops.exp2(); 3]));
+            let grey = white.map(|v| v * MID_GREY * stops.exp2());
+            let [_, a, b] = self.difference.lab(self.look.develop_linear(grey));
             a.hypot(b)
         };
         let greys = (-80..=80).map(|i| f64::from(i) / 8.0).map(|stops| (chroma(stops), stops));

@@ -144,7 +144,7 @@ impl Reference {
             None => None,
         };
         Ok(Self {
-            scene: SceneInput::new(process.spaces.input_space)?,
+            scene: SceneInput::new(&process.spaces)?,
             exposure: ExposureMatrix::new(film, &basis, process.matching, normal)?
                 .overexposed(process.overexposure)
                 .with_gamut(process.gamut),

@@ -1,12 +1,12 @@
 use nalgebra::{Matrix3, Vector3};
+use onelight_spectra::RgbSpace;
 pub use onelight_spectra::SCENE_MAX;
-use onelight_spectra::{Chromaticity, RgbSpace};
 pub(crate) use onelight_spectra::{MID_GREY, finite};
 
 use crate::error::{Error, ErrorKind};
-use crate::word::WorkingSpace;
+use crate::process::ColourSpaces;
 
-/// Scene light on its way to a film: from the input's primaries to sRGB's, hard values cleaned.
+/// Scene light on its way to a film: from the input's primaries to sRGB's, exposed and balanced, hard values cleaned.
 #[derive(Debug, Clone)]
 pub(crate) struct SceneInput {
     to_srgb: Matrix3<f64>,
@@ -14,8 +14,10 @@ pub(crate) struct SceneInput {
 }
 
 impl SceneInput {
-    pub(crate) fn new(input: WorkingSpace) -> Result<Self, Error> {
-        let to_srgb = input.space().to_about(&RgbSpace::SRGB, Chromaticity::black_body_6500_k())?;
+    pub(crate) fn new(spaces: &ColourSpaces) -> Result<Self, Error> {
+        spaces.check()?;
+        let to_srgb = spaces.scene_to(&RgbSpace::SRGB)?;
+        let input = spaces.input_space;
         let flat =
             || ErrorKind::Contradiction(format!("the primaries of {input:?} are on one line, expected three colours"));
         let from_srgb = to_srgb.try_inverse().ok_or_else(flat)?;

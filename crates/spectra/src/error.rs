@@ -20,6 +20,7 @@ pub(crate) enum ErrorKind {
     Table { source: &'static str, line: usize, problem: String },
     Chromaticity { what: &'static str, x: f64, y: f64 },
     Temperature { found: f64 },
+    SceneWhite { kelvin: f64, tint: f64 },
     Basis { problem: String },
 }
 
@@ -27,7 +28,13 @@ impl Error {
     /// Whether a number lay outside what its quantity allows: a negative power, a temperature of 0 K, a white with y = 0.
     #[must_use]
     pub fn is_value(&self) -> bool {
-        matches!(self.0, ErrorKind::Value { .. } | ErrorKind::Chromaticity { .. } | ErrorKind::Temperature { .. })
+        matches!(
+            self.0,
+            ErrorKind::Value { .. }
+                | ErrorKind::Chromaticity { .. }
+                | ErrorKind::Temperature { .. }
+                | ErrorKind::SceneWhite { .. }
+        )
     }
 }
 
@@ -61,6 +68,10 @@ impl fmt::Display for Error {
             ErrorKind::Temperature { found } => {
                 write!(f, "colour temperature: found {found} K, expected 500 K to 100000 K")
             }
+            ErrorKind::SceneWhite { kelvin, tint } => write!(
+                f,
+                "scene white: found {kelvin} K with a tint of {tint}, expected 1667 to 25000 K and a tint from -100 to 100, less for low temperatures"
+            ),
             ErrorKind::Basis { problem } => write!(f, "reconstruction basis: {problem}"),
         }
     }

@@ -4,6 +4,7 @@
 //! - [`Observer`], [`illuminant()`], [`black_body`]: the CIE 1931 eye and the lights
 //! - [`RgbSpace`], [`TransferCurve`]: displays and working spaces, with any white
 //! - [`SceneCurve`], [`CodedSpace`]: the codings of cameras and grading programs
+//! - [`SceneWhite`], [`chromatic_adaptation`]: light that is to look white
 //! - [`BufferFormat`]: what a low-precision frame buffer keeps of a picture
 //! - [`Basis`]: a spectrum for an RGB value ([`Reconstruction`] says which)
 //! - [`lux_to_w_per_m2`], [`lamp_rgb_w_per_m2`]: photometric to radiometric quantities
@@ -33,7 +34,7 @@
 //! names say which.
 //!
 //! # Out of scope
-//! Film, printers, look-up tables and pictures; chromatic adaptation other than "white is white"; fluorescence.
+//! Film, printers, look-up tables and pictures; colour appearance; fluorescence.
 //! Keys in square brackets are resolved in REFERENCES.md at the top of the repository.
 
 mod blackbody;
@@ -53,6 +54,7 @@ mod photometry;
 mod reconstruction;
 mod rgb;
 mod scene_value;
+mod scene_white;
 mod shape;
 mod tabulated;
 mod transfer;
@@ -73,6 +75,7 @@ pub use photometry::{LUMENS_PER_WATT_555_NM, lamp_rgb_w_per_m2, lumen_to_w, lux_
 pub use reconstruction::{Basis, Reconstruction};
 pub use rgb::{Chromaticity, RgbSpace};
 pub use scene_value::{MID_GREY, SCENE_MAX, finite};
+pub use scene_white::{SceneWhite, chromatic_adaptation};
 pub use shape::SpectralShape;
 pub use tabulated::{Extrapolation, TablePoints};
 pub use transfer::{CameraLog, CodedSpace, HDR_WHITE_CD_M2, SceneCurve, TransferCurve};

@@ -24,6 +24,9 @@ const CAMERAS: [&str; 5] =
 pub(crate) struct Arguments {
     #[command(flatten)]
     look: LookArguments,
+    /// Stops by which the scene is made brighter before the film [default: 0]
+    #[arg(long, value_name = "STOPS", allow_hyphen_values = true)]
+    ev: Option<f64>,
     /// Certify the five films of the README, both aims, all forms; the look's other options apply
     #[arg(long, conflicts_with_all = ["camera", "print", "aim"])]
     all: bool,
@@ -115,7 +118,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
 fn buffer_steps(arguments: &Arguments) -> Result<Report> {
     use onelight_benches::buffers;
 
-    let film = arguments.look.chosen()?.look()?;
+    let mut look = arguments.look.chosen()?;
+    look.expose(arguments.ev);
+    let film = look.look()?;
     let mut text =
         "largest step (CIEDE2000) on a grey ramp from -8 to +4 stops, through the buffer and the film\n".to_owned();
     let mut json = serde_json::Map::new();
@@ -128,7 +133,8 @@ fn buffer_steps(arguments: &Arguments) -> Result<Report> {
 }
 
 fn looks(arguments: &Arguments) -> Result<Vec<ChosenLook>> {
-    let look = arguments.look.chosen()?;
+    let mut look = arguments.look.chosen()?;
+    look.expose(arguments.ev);
     if !arguments.all {
         return Ok(vec![look]);
     }

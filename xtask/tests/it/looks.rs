@@ -6,7 +6,7 @@ use std::path::Path;
 
 use onelight_picture::{Limits, Picture, Source};
 
-use crate::program::done;
+use crate::program::{done, refused};
 
 /// Writes an EXR of six equal pixels.
 fn flat(folder: &Path, name: &str, rgb: [f32; 3]) {
@@ -60,4 +60,25 @@ fn camera_logs_become_light() {
     let line = ["develop", "grey.exr", "light.exr", "--approach", "clip", "--input-coding", "logc3"];
     done(folder, &[&line[..], &["--input-space", "rec2020"]].concat());
     assert!((first_pixel(folder, "light.exr")[1] - 0.18).abs() < 1e-5);
+}
+
+/// `bake --ev` and `--scene-white` are in its look.toml, and develop with it does the same; its own --ev takes the place of the look's.
+#[test]
+fn a_look_s_exposure_and_white_are_developed() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    flat(folder, "card.exr", [0.3, 0.17, 0.06]);
+    let look = ["--ev", "1", "--scene-white", "3200,5"];
+    let quick = ["bake", "--form", "direct", "--quick", "--out", "look"];
+    done(folder, &[&quick[..], &look[..]].concat());
+    let said = done(folder, &["develop", "card.exr", "a.exr", "--look", "look/look.toml"]);
+    assert!(said.contains("+1.00 EV"), "{said}");
+    let a = first_pixel(folder, "a.exr");
+    done(folder, &["develop", "card.exr", "b.exr", "--ev", "1", "--scene-white", "3200,5"]);
+    let b = first_pixel(folder, "b.exr");
+    assert!((0..3).all(|c| (a[c] - b[c]).abs() < 1e-5), "{a:?} {b:?}");
+    let said = done(folder, &["develop", "card.exr", "c.exr", "--look", "look/look.toml", "--ev", "0"]);
+    assert!(said.contains("+0.00 EV") && first_pixel(folder, "c.exr")[1] < a[1], "{said}");
+    assert!(refused(folder, &["bake", "--quick", "--scene-white", "200"]).contains("1667 to 25000 K"));
+    assert!(refused(folder, &["bake", "--quick", "--ev", "40"]).contains("ev: found 40"));
 }

@@ -1,9 +1,8 @@
 //! An OpenColorIO configuration around the files of baked looks.
 
-use nalgebra::{Matrix3, Vector3};
 use onelight_formats::{OcioConfig, OcioSpace, OcioView};
 use onelight_lut::PowerCoding;
-use onelight_spectra::{Chromaticity, RgbSpace, TransferCurve};
+use onelight_spectra::{Chromaticity, RgbSpace, TransferCurve, chromatic_adaptation};
 
 use super::form::{Baked, BakedForm};
 use crate::error::{Error, ErrorKind};
@@ -49,7 +48,7 @@ pub fn ocio_config(looks: &[(&Baked, &str)], comments: &[String]) -> Result<Vec<
 
 /// A configuration for the spaces of a look, without a view.
 pub(super) fn config(spaces: &ColourSpaces) -> Result<OcioConfig, Error> {
-    let ColourSpaces { input_space, output_space, output_coding } = *spaces;
+    let ColourSpaces { input_space, output_space, output_coding, .. } = *spaces;
     let scene = OcioSpace {
         name: match input_space {
             WorkingSpace::Srgb => "Linear Rec.709",
@@ -81,12 +80,8 @@ pub(super) fn config(spaces: &ColourSpaces) -> Result<OcioConfig, Error> {
 
 /// Linear RGB to CIE XYZ, its white adapted to D65 by Bradford's cone responses \[Lam1985\].
 fn to_xyz_d65(space: &RgbSpace) -> Result<[[f64; 3]; 3], Error> {
-    let cones = Matrix3::new(0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296);
-    let to_xyz = space.to_xyz()?;
-    let (own, d65) = (cones * to_xyz * Vector3::repeat(1.0), cones * Chromaticity::D65.xyz());
-    let adapted = Matrix3::from_diagonal(&d65.component_div(&own)) * cones * to_xyz;
-    let back = cones.try_inverse().unwrap_or_else(Matrix3::identity) * adapted;
-    Ok(std::array::from_fn(|row| std::array::from_fn(|column| back[(row, column)])))
+    let adapted = chromatic_adaptation(space.white, Chromaticity::D65)? * space.to_xyz()?;
+    Ok(std::array::from_fn(|row| std::array::from_fn(|column| adapted[(row, column)])))
 }
 
 #[cfg(test)]

@@ -50,7 +50,7 @@ impl FirstApproach {
         };
         let output = process.spaces.output_space.space();
         Ok(Self {
-            scene: SceneInput::new(process.spaces.input_space)?,
+            scene: SceneInput::new(&process.spaces)?,
             matrix: pre_colour(&films.camera),
             curves: curves.try_map(|curve, _| curve.edited(&process.controls.curve))?,
             post: PostColour::new(&process.controls)?,

@@ -1,5 +1,5 @@
 use nalgebra::{Matrix3, Vector3};
-use onelight_spectra::{Chromaticity, DisplayLinear};
+use onelight_spectra::DisplayLinear;
 
 use crate::about::About;
 use crate::error::Error;
@@ -24,11 +24,11 @@ pub struct ToneMapped {
 
 impl ToneMapped {
     pub(crate) fn new(process: &ToneProcess) -> Result<Self, Error> {
-        let white = Chromaticity::black_body_6500_k();
         let spaces = &process.spaces;
+        spaces.check()?;
         Ok(Self {
             mapping: process.mapping,
-            to_output: spaces.input_space.space().to_about(&spaces.output_space.space(), white)?,
+            to_output: spaces.scene_to(&spaces.output_space.space())?,
             luminance: spaces.output_about_scene_white().to_xyz()?.row(1).transpose(),
             about: About::new(&Process::Tone(*process)),
         })

@@ -9,7 +9,7 @@ use super::spaces::ColourSpaces;
 /// assert_eq!(clipped.look()?.develop_linear([0.25, 1.5, -3.0]).0, [0.25, 1.0, 0.0]);
 /// # Ok::<(), onelight::Error>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ToneProcess {
     /// What becomes of light that is brighter than the display.
     pub mapping: ToneMapping,

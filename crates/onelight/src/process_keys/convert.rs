@@ -46,6 +46,8 @@ impl ProcessKeys {
 
     fn unchecked(&self) -> Result<Process, Error> {
         let spaces = ColourSpaces {
+            ev: self.ev,
+            scene_white: self.scene_white,
             input_space: self.input_space,
             output_space: self.output_space,
             output_coding: self.output_coding,
@@ -114,6 +116,7 @@ impl ProcessKeys {
             check_exposure(self.neutral_density, self.overexposure)?;
             check_lights(&self.beam_density, &self.points)?;
         }
+        self.unchecked()?.spaces().check()?;
         let refuse = |sentence: String| Err(ErrorKind::Contradiction(sentence).into());
         let (idle, why) = self.idle_keys();
         // The first approach's controls are named before the film's kind is blamed for them.
@@ -209,6 +212,8 @@ impl From<&Process> for ProcessKeys {
         let spaces = process.spaces();
         let mut keys = Self {
             approach: process.approach(),
+            ev: spaces.ev,
+            scene_white: spaces.scene_white,
             input_space: spaces.input_space,
             output_space: spaces.output_space,
             output_coding: spaces.output_coding,

@@ -2,11 +2,11 @@ use onelight_film::{DyeModel, Matching, PrintCurves, Tail, WideGamut};
 use onelight_printing::{
     Aim, Calibration, Filters, HeatGlass, Infrared, NEUTRAL_DENSITY, Printer, PrinterLight, Projector, White,
 };
-use onelight_spectra::{Reconstruction, TransferCurve};
+use onelight_spectra::{Reconstruction, SceneWhite, TransferCurve};
 use serde::{Deserialize, Serialize};
 
 use super::version::FormatVersion;
-use super::word_lists::{self, parse_calibration, parse_inter_image, parse_print};
+use super::word_lists::{self, parse_calibration, parse_inter_image, parse_print, parse_scene_white};
 use crate::error::Error;
 use crate::process::{Approach, DEFAULT_CAMERA, DEFAULT_PRINT, FilmProcess, FirstControls, InterImageChoice};
 use crate::word::{self, WorkingSpace};
@@ -105,6 +105,11 @@ pub struct ProcessKeys {
     /// What a viewer takes for white.
     #[serde(with = "word::text")]
     pub white: White,
+    /// Stops by which the scene is made brighter, -20 to 20.
+    pub ev: f64,
+    /// The light that is to become neutral: `"none"`, or kelvin and a tint as `"3200"` or `"5600,10"`.
+    #[serde(with = "word_lists::scene_white")]
+    pub scene_white: Option<SceneWhite>,
     /// Primaries of the scene-linear RGB that comes in.
     #[serde(with = "word::text")]
     pub input_space: WorkingSpace,
@@ -148,6 +153,8 @@ impl Default for ProcessKeys {
             red_tail: Tail::default(),
             projector: Projector::default(),
             white: White::default(),
+            ev: 0.0,
+            scene_white: None,
             input_space: WorkingSpace::default(),
             output_space: WorkingSpace::default(),
             output_coding: TransferCurve::default(),
@@ -204,6 +211,14 @@ impl ProcessKeys {
     /// If the word is `none` in capitals.
     pub fn parse_print(word: &str) -> Result<Option<String>, Error> {
         parse_print(word)
+    }
+
+    /// What `scene_white` is for a word: `none`, or kelvin and a tint as `3200` or `5600,10`.
+    ///
+    /// # Errors
+    /// If it is neither `none` nor one or two numbers in their ranges.
+    pub fn parse_scene_white(word: &str) -> Result<Option<SceneWhite>, Error> {
+        parse_scene_white(word)
     }
 
     /// What `calibration` is for a word: `exact`, or a number of iterations.

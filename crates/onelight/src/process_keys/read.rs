@@ -10,7 +10,7 @@ use crate::process::{Approach, Process, default_print};
 const MAX_BYTES: usize = 64 * 1024;
 
 /// Every key, for messages; a test holds it against the struct.
-const KEYS: [&str; 27] = [
+const KEYS: [&str; 29] = [
     "version",
     "approach",
     "camera",
@@ -34,13 +34,15 @@ const KEYS: [&str; 27] = [
     "red_tail",
     "projector",
     "white",
+    "ev",
+    "scene_white",
     "input_space",
     "output_space",
     "output_coding",
     "first",
 ];
 /// The keys that version 1 did not have.
-const NEW_KEYS: [&str; 4] = ["interimage", "gamut", "print_curves", "white"];
+const NEW_KEYS: [&str; 6] = ["interimage", "gamut", "print_curves", "white", "ev", "scene_white"];
 /// The keys of the table `[first]`.
 const FIRST_KEYS: [&str; 5] = ["contrast", "brightness", "temperature", "saturation", "curve"];
 /// The keys that only data sheets of one's own need.
@@ -152,7 +154,9 @@ fn wrong_type(table: &toml::Table, written: &str) -> Option<String> {
     };
     let expected = match key {
         "version" => "1 or 2",
-        "neutral_density" | "overexposure" | "contrast" | "brightness" | "temperature" | "saturation" => "a number",
+        "neutral_density" | "overexposure" | "ev" | "contrast" | "brightness" | "temperature" | "saturation" => {
+            "a number"
+        }
         "points" | "beam_density" => "three numbers, red, green, blue",
         "filters" => "a list of words in quotes",
         "curve" => "a list of pairs: stops about mid grey, display-coded value",
@@ -203,7 +207,8 @@ mod tests {
             FilmProcess::default();
         assert_eq!((matching, inter_image, reconstruction), Default::default());
         assert_eq!((gamut, projector, white), Default::default());
-        let ColourSpaces { input_space, output_space, output_coding } = spaces;
+        let ColourSpaces { ev, scene_white, input_space, output_space, output_coding } = spaces;
+        assert_eq!((ev, scene_white), (0.0, None));
         assert_eq!((input_space, output_space, output_coding), Default::default());
         let print = print.unwrap();
         assert_eq!((print.curves, print.calibration), Default::default());
@@ -247,7 +252,7 @@ mod tests {
         );
         let far = message("version = 2\nzzz = 3\n");
         assert!(far.starts_with("look.toml:2: unknown key \"zzz\", expected one of version, approach,"), "{far}");
-        assert!(message(&format!("version = 2\n{} = 3\n", "z".repeat(1000))).len() < 400);
+        assert!(message(&format!("version = 2\n{} = 3\n", "z".repeat(1000))).len() < 450);
         assert_eq!(
             message("version = 2\nprint = \"NONE\"\n"),
             "look.toml:2: print: found \"NONE\", expected the id of a print film, or none (did you mean \"none\"?)"

@@ -2,6 +2,7 @@
 
 use onelight_film::InterImage;
 use onelight_printing::Calibration;
+use onelight_spectra::SceneWhite;
 
 use crate::error::{Error, ErrorKind};
 use crate::message::cut;
@@ -35,6 +36,21 @@ pub(super) fn parse_inter_image(word: &str) -> Result<InterImageChoice, Error> {
         "film" => Ok(InterImageChoice::Film),
         _ => Ok(InterImageChoice::Fixed(InterImage::parse(word)?)),
     }
+}
+
+/// What `scene_white` is for a word: `none`, or kelvin and a tint.
+pub(super) fn parse_scene_white(word: &str) -> Result<Option<SceneWhite>, Error> {
+    let numbers: Result<Vec<f64>, _> = word.split(',').map(|number| number.trim().parse()).collect();
+    let (kelvin, tint) = match (word, numbers.as_deref()) {
+        ("none", _) => return Ok(None),
+        (_, Ok(&[kelvin])) => (kelvin, 0.0),
+        (_, Ok(&[kelvin, tint])) => (kelvin, tint),
+        _ => {
+            let expected = "none, or kelvin and a tint such as 3200 or 5600,10".to_owned();
+            return Err(ErrorKind::Word { what: "scene_white", found: cut(word), expected }.into());
+        }
+    };
+    Ok(Some(SceneWhite::new(kelvin, tint)?))
 }
 
 /// `filters`: a list of numbers as words.
@@ -87,6 +103,25 @@ pub(super) mod inter_image {
 
     pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<InterImageChoice, D::Error> {
         super::parse_inter_image(&String::deserialize(deserializer)?).map_err(de::Error::custom)
+    }
+}
+
+/// `scene_white`: `"none"`, or kelvin and a tint as `"3200"` or `"5600,10"`.
+pub(super) mod scene_white {
+    use onelight_spectra::SceneWhite;
+    use serde::{Deserialize, Deserializer, Serializer, de};
+
+    #[expect(clippy::ref_option, reason = "the signature serde asks for")]
+    pub(crate) fn serialize<S: Serializer>(white: &Option<SceneWhite>, serializer: S) -> Result<S::Ok, S::Error> {
+        match white {
+            None => serializer.serialize_str("none"),
+            Some(white) if white.tint() == 0.0 => serializer.collect_str(&white.kelvin()),
+            Some(white) => serializer.collect_str(&format_args!("{},{}", white.kelvin(), white.tint())),
+        }
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<SceneWhite>, D::Error> {
+        super::parse_scene_white(&String::deserialize(deserializer)?).map_err(de::Error::custom)
     }
 }
 

@@ -11,6 +11,7 @@ mod laws;
 mod oracle;
 mod own_stock;
 mod properties;
+mod scene_light;
 mod stages;
 mod structured;
 mod switches;

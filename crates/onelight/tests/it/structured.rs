@@ -56,7 +56,7 @@ fn every_space_and_coding_is_followed() {
         (WorkingSpace::Srgb, WorkingSpace::Rec2020, TransferCurve::Gamma24),
         (WorkingSpace::P3, WorkingSpace::P3, TransferCurve::Linear),
     ] {
-        let spaces = ColourSpaces { input_space, output_space, output_coding };
+        let spaces = ColourSpaces { input_space, output_space, output_coding, ..ColourSpaces::default() };
         let film = compiled(&FilmProcess { spaces, ..Default::default() });
         let lut = film.structured(&StructuredSettings::default()).unwrap();
         for rgb in [[0.18; 3], [0.5, 0.2, 0.1], [0.02, 0.3, 0.9], [6.0, 4.0, 3.0]] {

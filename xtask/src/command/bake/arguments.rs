@@ -16,6 +16,9 @@ use crate::words::words;
 pub(crate) struct Arguments {
     #[command(flatten)]
     pub(super) look: LookArguments,
+    /// Stops by which the scene is made brighter before the film [default: 0]
+    #[arg(long, value_name = "STOPS", allow_hyphen_values = true)]
+    pub(super) ev: Option<f64>,
     /// Programs to bake for, comma-separated: each gets the form, coding, size and file that it loads best
     #[arg(long = "for", value_delimiter = ',', value_name = "PROGRAMS", value_parser = targets(),
         conflicts_with_all = ["form", "size", "stops", "entries", "storage", "coding", "format", "nodes", "max_de", "unclamped"])]

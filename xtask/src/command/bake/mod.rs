@@ -24,7 +24,8 @@ const CUBE_STOPS: f64 = 14.0;
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let mut clock = Clock::default();
-    let looks = arguments.look.each()?;
+    let mut looks = arguments.look.each()?;
+    looks.iter_mut().for_each(|look| look.expose(arguments.ev));
     let config = arguments.programs().iter().any(|target| target.takes_ocio_config());
     if looks.len() > 1 && !(config && arguments.programs().iter().all(|target| target.takes_ocio_config())) {
         bail!(

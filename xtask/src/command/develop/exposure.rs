@@ -14,6 +14,12 @@ pub(crate) enum Exposure {
     Auto,
 }
 
+impl Default for Exposure {
+    fn default() -> Self {
+        Self::Stops(0.0)
+    }
+}
+
 impl std::str::FromStr for Exposure {
     type Err = String;
 

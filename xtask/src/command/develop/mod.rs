@@ -49,9 +49,10 @@ pub(crate) struct Arguments {
     look: LookArguments,
     #[command(flatten)]
     camera: ExposureArguments,
-    /// Exposure in stops, or auto: the log average of the picture, without a black background, comes to 0.18
-    #[arg(long, default_value = "0", value_name = "STOPS|auto", allow_hyphen_values = true)]
-    ev: Exposure,
+    /// Exposure in stops, or auto: the log average of the picture, without a black background, comes to 0.18 [default: the look's,
+    /// else 0]
+    #[arg(long, value_name = "STOPS|auto", allow_hyphen_values = true)]
+    ev: Option<Exposure>,
     /// How the film is computed [default: direct; reference for approaches without film]
     #[arg(long)]
     form: Option<Form>,
@@ -108,7 +109,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let Many { frames, shard, memory } = &arguments.many;
     let plan = sequence::plan(&arguments.input, &arguments.output, frames.as_ref(), *shard)?;
     if let Some(plan) = &plan {
-        sequence::check_exposure(plan, arguments.ev)?;
+        sequence::check_exposure(plan, arguments.ev.unwrap_or_default())?;
     }
     let mut notes = Vec::new();
     let target = arguments.out.target(&arguments.output, &mut notes)?;
@@ -125,14 +126,18 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         notes.push(format!("{what} holds linear light: not coded by {}", spaces.output_coding.word()));
         spaces.output_coding = TransferCurve::Linear;
     }
+    // What is typed takes the place of the look's own exposure.
+    if arguments.ev.is_some() {
+        look.expose(Some(0.0));
+    }
     let scene = arguments.camera.resolve(&look)?;
-    if scene.is_metered() && arguments.ev == Exposure::Auto {
+    if scene.is_metered() && arguments.ev == Some(Exposure::Auto) {
         bail!("--ev auto exposes by the picture: the camera's settings change nothing, expected one or the other");
     }
     let mut settings = Settings {
         film: clock.time("compile", || Film::new(&look, arguments.form))?,
         look,
-        exposure: arguments.ev,
+        exposure: arguments.ev.unwrap_or_default(),
         scene,
         input: arguments.picture.settings(arguments.look.names_input_space()),
         target,
@@ -173,6 +178,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     }
 
     let process = &settings.look.process;
+    let ev = ev + process.spaces().ev;
     let mut text = String::new();
     let _ = writeln!(text, "{output}   {}x{}, {}, {ev:+.2} EV", size[0], size[1], process.name());
     for note in &notes {

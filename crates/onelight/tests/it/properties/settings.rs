@@ -68,7 +68,12 @@ fn film() -> impl Strategy<Value = FilmProcess> {
                 gamut,
                 projector,
                 white,
-                spaces: ColourSpaces { input_space: spaces.0, output_space: spaces.1, output_coding: spaces.2 },
+                spaces: ColourSpaces {
+                    input_space: spaces.0,
+                    output_space: spaces.1,
+                    output_coding: spaces.2,
+                    ..ColourSpaces::default()
+                },
             }
         },
     )
