@@ -10,6 +10,7 @@ mod plot;
 mod printer;
 mod reversal;
 mod surface;
+mod ways;
 mod words;
 
 pub use page::{Page, measure};

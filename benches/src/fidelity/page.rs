@@ -10,7 +10,7 @@ use super::chart::{COLOURS, Chart, Scene};
 use super::negative::{ALONE, Negative};
 use super::plot::{self, Curve};
 use super::reversal::{self, Exchanged};
-use super::{absolute, greys, surface, words};
+use super::{absolute, greys, surface, ways, words};
 use crate::error::Result;
 use crate::sheet_fidelity;
 
@@ -70,6 +70,7 @@ pub fn measure() -> Result<Page> {
         grey_scale(&scene)?,
         absolute_greys(&scene)?,
         surfaces(&scene)?,
+        ways_to_see(&scene)?,
         uncertain(&scene)?,
         print_curves(&scene)?,
         turns()?,
@@ -269,6 +270,20 @@ fn surfaces(scene: &Scene) -> Result<Part> {
         );
     }
     text.push_str(words::NO_SURFACE);
+    Ok(Part { text, plots: String::new() })
+}
+
+fn ways_to_see(scene: &Scene) -> Result<Part> {
+    let mut text = words::WAYS.to_owned();
+    for ways::Way { name, gamma, chroma, turn, tint, white } in ways::all(scene)? {
+        let white = white.map_or_else(|| "-".to_owned(), |stops| format!("{stops:+.1}"));
+        let _ = writeln!(
+            text,
+            "| {name} | {gamma:.2} | {chroma:.2} | {turn:.0} | {:.1} at {:+.2} | {white} |",
+            tint.0, tint.1
+        );
+    }
+    text.push_str(words::WHICH_WAY);
     Ok(Part { text, plots: String::new() })
 }
 

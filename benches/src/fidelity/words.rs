@@ -128,6 +128,25 @@ figure with a source was found; 0.5 to 1 % is assumed. Who wants it adds it to t
 (rgb + part) / (1 + part).
 ";
 
+pub(super) const WAYS: &str = "\
+## A negative printed and scanned
+
+The same negative on print film, on paper, and as a scan inverted by the rule of the Cineon system \\[Cineon1995\\] (`Scan` in
+onelight-printing: status M densities above the base are the logarithm of light by a gamma of 0.6, the base is black, grey is balanced):
+gamma at a grey card, median chroma and turn of the ColorChecker's colours, largest C* of greys from -4 to +2 stops, and stops at which
+grey reaches the display's white.
+
+| way | gamma | chroma | turn | tint of greys | white at |
+|---|---|---|---|---|---|
+";
+
+pub(super) const WHICH_WAY: &str = "
+A scan gives the scene's own contrast back (0.97 to 1.18), because the rule takes out what a film of gamma 0.6 put in: it is flat beside
+a print, and ends 2.2 to 2.5 stops above grey, where a print still has its shoulder. Scanner programs add curves of their own here;
+they are not published. Colours are as strong as on print film, with smaller turns: status M filters see each dye nearly alone. Three
+gammas that differ from 0.6 tint its greys above the card.
+";
+
 pub(super) const UNCERTAINTY: &str = "\
 ## What is uncertain
 

@@ -4,6 +4,7 @@
 //! - [`Duplication`]: a negative over a print film; [`PrinterLights`] by exact solution or by the talk's iteration
 //! - [`Aim`]: what a grey card should become
 //! - [`Projection`]: dye to spectrum, XYZ and display-linear RGB
+//! - [`Scan`]: a negative that is scanned and inverted, in place of a print
 //!
 //! ```
 //! use onelight_film::{DyeModel, PerLayer, SheetText, Stock};
@@ -42,6 +43,7 @@ mod error;
 mod filter;
 mod printer;
 mod projection;
+mod scan;
 mod spectral_row;
 
 pub use aim::{Aim, EquivalentNeutralDensity, NEUTRAL_DENSITY, print_mid_grey, print_target, reversal_target};
@@ -50,6 +52,7 @@ pub use error::Error;
 pub use filter::{HeatGlass, Wratten};
 pub use printer::{Filters, Infrared, POINT_LOG_EXPOSURE, Printer, PrinterLight, PrinterLights};
 pub use projection::{Projection, Projector, White};
+pub use scan::Scan;
 pub use spectral_row::SpectralRow;
 
 /// The examples of README.md, compiled and run with the tests.

@@ -38,6 +38,10 @@ pub(super) fn sensible(chosen: &[Stock]) -> Result<Vec<FilmProcess>> {
     let mut looks: Vec<_> = with_chosen.map(|(camera, print)| look(camera.id(), print.map(Stock::id))).collect();
     for stock in chosen {
         for variant in stock.variants().map(|variant| format!("{}@{variant}", stock.id())) {
+            // The usual one goes by the name of the stock.
+            if onelight::stock(&variant)?.id() == stock.id() {
+                continue;
+            }
             if stock.kind().is_camera_film() {
                 looks.push(FilmProcess::for_camera(&variant)?);
             } else if let Some(camera) = all.iter().find(|camera| camera.is_printed_on(stock)) {
@@ -77,10 +81,41 @@ pub(super) fn certificates(looks: &[FilmProcess], colours: usize) -> Result<(Str
             overall.p99
         );
     }
+    text += &by_print(&found);
     let largest = found.iter().map(|(_, certificate)| certificate.max_found).fold(0.0, f64::max);
     let _ = writeln!(text, "{} looks, none further off than {largest:.2}", found.len());
     let rows = found.iter().map(|(name, certificate)| json!({ "films": name, "certificate": certificate }));
     Ok((text, rows.collect()))
+}
+
+/// The same, grouped by what the picture is on.
+fn by_print(found: &[(String, Certificate)]) -> String {
+    let mut groups: Vec<(&str, Vec<(&str, &Certificate)>)> = Vec::new();
+    for (name, certificate) in found {
+        let (camera, print) = name.split_once('_').unwrap_or((name, "itself"));
+        let print = print.split('@').next().unwrap_or(print);
+        match groups.iter_mut().find(|(of, _)| *of == print) {
+            Some((_, group)) => group.push((camera, certificate)),
+            None => groups.push((print, vec![(camera, certificate)])),
+        }
+    }
+    let mut text =
+        "\n| on | looks | mean | largest mean | median largest | largest |\n|---|---|---|---|---|---|\n".to_owned();
+    for (print, mut group) in groups {
+        group.sort_by(|a, b| a.1.max_found.total_cmp(&b.1.max_found));
+        let means = || group.iter().map(|(_, certificate)| certificate.overall.mean);
+        let (camera, worst) = group[group.len() - 1];
+        let _ = writeln!(
+            text,
+            "| {print} | {} | {:.3} | {:.3} | {:.2} | {:.2} ({camera}) |",
+            group.len(),
+            means().sum::<f64>() / group.len() as f64,
+            means().fold(0.0, f64::max),
+            group[group.len() / 2].1.max_found,
+            worst.max_found
+        );
+    }
+    text
 }
 
 #[cfg(test)]
@@ -115,6 +150,7 @@ mod tests {
             let mean = row["certificate"]["overall"]["mean"].as_f64().unwrap();
             assert!(mean < 0.15, "{text}");
         }
+        assert!(text.contains("| itself | 3 |") && text.contains("| kodak-polymax-fine-art | 1 |"), "{text}");
     }
 
     #[test]
@@ -122,5 +158,16 @@ mod tests {
         let paper = [stock("kodak-endura-premier").unwrap()];
         let negatives = stock_ids().map(|id| stock(id).unwrap()).filter(|film| film.is_printed_on(&paper[0])).count();
         assert_eq!(sensible(&paper).unwrap().len(), negatives);
+    }
+
+    #[test]
+    fn every_look_is_there_once() {
+        let all: Vec<Stock> = stock_ids().map(|id| stock(id).unwrap()).collect();
+        let mut names: Vec<String> =
+            sensible(&all).unwrap().into_iter().map(|look| Process::from(look).name()).collect();
+        let count = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), count);
     }
 }
