@@ -56,6 +56,12 @@ impl ExponentialSum {
         &self.terms
     }
 
+    /// Each sum times a number.
+    pub(crate) fn scaled(&self, factors: [f32; 3]) -> Result<Self, Error> {
+        let weight = |weight: [f32; 3]| std::array::from_fn(|j| factors[j] * weight[j]);
+        Self::new(self.terms.iter().map(|term| ExponentialTerm { weight: weight(term.weight), ..*term }).collect())
+    }
+
     /// The three sums at one place.
     #[inline]
     pub fn apply(&self, x: [f32; 3]) -> [f32; 3] {

@@ -14,7 +14,7 @@ use crate::stocks::stock;
 /// assert_eq!(film.name(), "kodak-5219_kodak-2393");
 /// # Ok::<(), onelight::Error>(())
 /// ```
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Films {
     /// A negative, a reversal or an instant film.
     pub camera: Stock,

@@ -120,7 +120,7 @@ mod structured;
 mod uncertainty;
 mod word;
 
-pub use direct::{DirectSettings, Nodes};
+pub use direct::{DirectSettings, LiveDirect, Nodes};
 pub use error::Error;
 pub use films::Films;
 pub use gamut_effect::GamutEffect;

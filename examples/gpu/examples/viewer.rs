@@ -10,7 +10,7 @@ use std::sync::Arc;
 use onelight::DirectSettings;
 use onelight_gpu::{FilmPass, wgpu};
 use onelight_gpu_examples::scene;
-use onelight_lut::{DirectForm, DirectParts, Expose};
+use onelight_lut::DirectForm;
 use pollster::block_on;
 use wgpu::{CurrentSurfaceTexture, Device, Queue, Surface, SurfaceConfiguration, Texture};
 use winit::application::ApplicationHandler;
@@ -69,10 +69,9 @@ struct Frame {
 impl Viewer {
     /// The stock in use, with the exposure in its first matrix.
     fn form(&self) -> Result<DirectForm, Box<dyn Error>> {
-        let parts = self.forms[self.stock].parts().clone();
-        let gain = (self.thirds as f32 / 3.0).exp2();
-        let input = parts.expose.input.map(|row| row.map(|v| gain * v));
-        Ok(DirectForm::new(DirectParts { expose: Expose { input, ..parts.expose }, ..parts })?)
+        let form = self.forms[self.stock].clone();
+        let expose = form.parts().expose.brighter(self.thirds as f32 / 3.0);
+        Ok(form.with_expose(expose)?)
     }
 
     fn open(&self, event_loop: &ActiveEventLoop) -> Result<Frame, Box<dyn Error>> {

@@ -1,5 +1,5 @@
 use crate::coding::PowerCoding;
-use crate::error::Error;
+use crate::error::{Error, ErrorKind};
 use crate::exponential_sum::ExponentialSum;
 use crate::form::develop::{Develop, DevelopCurves};
 use crate::form::expose::Expose;
@@ -135,6 +135,50 @@ impl DirectForm {
         &self.parts
     }
 
+    /// The same with another first step, such as [`Expose::brighter`] or [`Expose::after`] of the one it has: no copy and no fit, so
+    /// that an exposure or a white balance can follow a hand.
+    ///
+    /// ```
+    /// # use onelight_lut::{Develop, DirectForm, DirectParts, Expose, ExponentialSum, ExponentialTerm, IDENTITY, Lut1d, PowerCoding};
+    /// # let parts = DirectParts {
+    /// #     expose: Expose::by(IDENTITY),
+    /// #     develop: Develop { coupling: None, curves: Lut1d::sample(64, [-10.0, 0.0], |stops| -0.5 * stops)? },
+    /// #     print: None,
+    /// #     projection: ExponentialSum::new(vec![ExponentialTerm { rate: [1.0; 3], weight: [1.0; 3] }])?,
+    /// #     coding: PowerCoding::LINEAR,
+    /// # };
+    /// let form = DirectForm::new(parts)?;
+    /// let expose = form.parts().expose;
+    /// let darker = form.clone().with_expose(expose.brighter(-1.0))?;
+    /// assert!((darker.apply([0.5; 3])[0] - form.apply([0.25; 3])[0]).abs() < 1e-6);
+    /// # Ok::<(), onelight_lut::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If a matrix holds a number that is not finite.
+    pub fn with_expose(mut self, expose: Expose) -> Result<Self, Error> {
+        expose.check()?;
+        self.parts.expose = expose;
+        Ok(self)
+    }
+
+    /// The same with each channel's exposure of the print multiplied by a number above 0: as if its light were so much brighter. A
+    /// form without a print stays as it is.
+    ///
+    /// # Errors
+    /// If a factor is no number above 0, or a weight of the sum is not finite any more.
+    pub fn with_print_exposed(mut self, factors: [f32; 3]) -> Result<Self, Error> {
+        if let Some(&found) = factors.iter().find(|v| !(**v > 0.0 && v.is_finite())) {
+            let (what, found) = ("factor of a print's exposure", f64::from(found));
+            return Err(ErrorKind::Parameter { what, found, expected: "a number above 0" }.into());
+        }
+        if let (Some(print), Some(steps)) = (&mut self.parts.print, &mut self.print) {
+            print.exposure = print.exposure.scaled(factors)?;
+            steps.exposure = Exponentials::new(&print.exposure, self.parts.develop.curves.ends());
+        }
+        Ok(self)
+    }
+
     /// The output for one scene-linear colour.
     #[inline]
     pub fn apply(&self, linear: [f32; 3]) -> [f32; 3] {
@@ -215,6 +259,29 @@ mod tests {
         let direct = DirectForm::new(DirectParts { print, ..parts() }).unwrap();
         let out = direct.apply([1.0, 4.0, 1.0]);
         assert!((out[1] / out[0] - 4.0).abs() < 1e-3, "{out:?}");
+    }
+
+    #[test]
+    fn moved_forms_are_forms_of_moved_parts() {
+        let print = Some(DirectPrint { exposure: separate(2.0), curves: falling() });
+        let direct = DirectForm::new(DirectParts { print: print.clone(), ..parts() }).unwrap();
+        let moved = direct.clone().with_print_exposed([2.0, 0.5, 1.0]).unwrap();
+        let exposure = print.as_ref().unwrap().exposure.scaled([2.0, 0.5, 1.0]).unwrap();
+        let print = Some(DirectPrint { exposure, curves: falling() });
+        assert_eq!(moved, DirectForm::new(DirectParts { print, ..parts() }).unwrap());
+        // Twice the light is one stop of the print's curve, half a unit of dye: two halvings a unit make that a factor of two.
+        let (before, after) = (direct.apply([64.0; 3]), moved.apply([64.0; 3]));
+        for (factor, (before, after)) in [2.0, 0.5, 1.0].into_iter().zip(before.into_iter().zip(after)) {
+            assert!((after / before / factor - 1.0).abs() < 1e-5, "{before} {after}");
+        }
+        assert_eq!(moved.with_print_exposed([0.5, 2.0, 1.0]).unwrap(), direct);
+        assert!(direct.clone().with_print_exposed([0.0, 1.0, 1.0]).is_err());
+        assert!(direct.clone().with_expose(Expose::by([[f32::NAN; 3]; 3])).is_err());
+        let expose = Expose::by(IDENTITY).brighter(0.7);
+        assert_eq!(
+            direct.clone().with_expose(expose).unwrap(),
+            DirectForm::new(DirectParts { expose, ..direct.parts().clone() }).unwrap()
+        );
     }
 
     #[test]

@@ -58,6 +58,34 @@ impl Expose {
         Self { input: IDENTITY, matrix, negative: NegativeLight::Clip }
     }
 
+    /// The same for light so many stops brighter: every exposure rises by as much, and nothing else moves.
+    ///
+    /// ```
+    /// # use onelight_lut::{Expose, IDENTITY};
+    /// let pushed = Expose::by(IDENTITY).brighter(1.5);
+    /// assert!((pushed.log2([0.18; 3])[0] - Expose::by(IDENTITY).log2([0.18; 3])[0] - 1.5).abs() < 1e-6);
+    /// ```
+    #[must_use]
+    pub fn brighter(self, stops: f32) -> Self {
+        let gain = stops.exp2();
+        Self { matrix: self.matrix.map(|row| row.map(|v| gain * v)), ..self }
+    }
+
+    /// The same for light that goes through a matrix first, in the picture's primaries: a white balance, say.
+    ///
+    /// ```
+    /// # use onelight_lut::{Expose, IDENTITY};
+    /// // A lamp that gives half as much blue, made white.
+    /// let balanced = Expose::by(IDENTITY).after(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.0]]);
+    /// assert_eq!(balanced.log2([0.5, 0.5, 0.25]), [-1.0; 3]);
+    /// ```
+    #[must_use]
+    pub fn after(self, balance: &Rows) -> Self {
+        let column = |k: usize| times(&self.input, [balance[0][k], balance[1][k], balance[2][k]]);
+        let [red, green, blue] = [column(0), column(1), column(2)];
+        Self { input: std::array::from_fn(|i| [red[i], green[i], blue[i]]), ..self }
+    }
+
     /// The log2 exposure of each layer, from -167 to 103.
     #[inline]
     pub fn log2(&self, linear: [f32; 3]) -> [f32; 3] {
@@ -97,6 +125,24 @@ mod tests {
 
     fn compress() -> Expose {
         Expose { negative: NegativeLight::Compress, ..Expose::by(MIXED) }
+    }
+
+    #[test]
+    fn moved_light_is_light_that_was_moved_before() {
+        let balance = [[1.1, 0.02, 0.0], [0.01, 0.95, 0.03], [0.0, -0.05, 1.3]];
+        for expose in [compress(), Expose::by(MIXED), Expose { input: balance, ..compress() }] {
+            for light in [[0.18, 0.2, 0.3], [4.0, 0.01, 0.7], [-0.1, 0.5, 0.4], [1e-3, 2e-3, 90.0]] {
+                for (found, wanted) in [
+                    (expose.brighter(-2.5).log2(light), expose.log2(light.map(|v| v * (-2.5_f32).exp2()))),
+                    (expose.after(&balance).log2(light), expose.log2(times(&balance, light))),
+                    (expose.brighter(1.0).brighter(-1.0).log2(light), expose.log2(light)),
+                ] {
+                    for (found, wanted) in found.into_iter().zip(wanted) {
+                        assert!((found - wanted).abs() < 2e-6, "{found} {wanted}");
+                    }
+                }
+            }
+        }
     }
 
     #[test]

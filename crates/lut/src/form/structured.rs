@@ -161,6 +161,18 @@ impl StructuredLut {
         Self { parts: StructuredParts { table, ..self.parts.clone() }, ..self.clone() }
     }
 
+    /// The same with another first step, such as [`Expose::brighter`] or [`Expose::after`] of the one it has: no copy and no fit, so
+    /// that an exposure or a white balance can follow a hand. What lies behind the first film, such as a printer's lights, is in the
+    /// table, which must then be baked again.
+    ///
+    /// # Errors
+    /// If a matrix holds a number that is not finite.
+    pub fn with_expose(mut self, expose: Expose) -> Result<Self, Error> {
+        expose.check()?;
+        self.parts.expose = expose;
+        Ok(self)
+    }
+
     /// The coordinates, 0 to 1 within the table, of one scene-linear colour.
     #[inline]
     pub fn coordinates(&self, linear: [f32; 3]) -> [f32; 3] {

@@ -31,7 +31,7 @@ impl Fitted<'_> {
     }
 }
 
-pub(super) fn under(film: &Reference, stages: &Stages, limit: f64) -> Result<DirectForm, Error> {
+pub(super) fn under(film: &Reference, stages: &Stages, limit: f64) -> Result<Stages, Error> {
     check_limit(limit)?;
     let training = Training::new(film)?;
     let measure = Measure::new(film)?;
@@ -59,11 +59,12 @@ pub(super) fn under(film: &Reference, stages: &Stages, limit: f64) -> Result<Dir
             if *miss > limit {
                 continue;
             }
-            let direct = film.direct_of(&Stages { duplication: sum, projection: last.clone() })?;
+            let stages = Stages { duplication: sum, projection: last.clone() };
+            let direct = film.direct_of(&stages)?;
             let quick = measure.certify(&direct, Search::SamplesOnly)?;
             nearest = nearest.min(quick.max_found);
             if quick.max_found <= limit && measure.certify(&direct, Search::Ascent)?.passed(limit) {
-                return Ok(direct);
+                return Ok(stages);
             }
         }
     }

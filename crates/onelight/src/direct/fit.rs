@@ -17,6 +17,8 @@ const STARTS: [f64; 4] = [1.0, 0.7, 0.5, 0.3];
 /// The norm of misses that is made small, and for how many steps at most: first of all starts, then of the best one.
 const BROAD: (i32, usize) = (2, 24);
 const FINE: [(i32, usize); 3] = [(2, 8), (4, 10), (12, 20)];
+/// The same where a sum is nearly there.
+const NEAR: [(i32, usize); 2] = [(4, 3), (12, 4)];
 /// The norm by which the best start is chosen, and of how many samples starts are fitted to one.
 const CHOICE: i32 = 12;
 const CHOICE_EVERY: usize = 3;
@@ -40,6 +42,11 @@ pub(super) fn fit(full: &Sum, samples: &[Sample], count: usize) -> Sum {
     let starts: Vec<(f64, Sum)> = starts.map(|sum| (norm(&misses(&sum, samples), CHOICE), sum)).collect();
     let best = starts.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
     best.map_or_else(|| full.clone(), |(_, sum)| descend(sum, samples, &FINE))
+}
+
+/// The same from a sum that is nearly there, by few steps.
+pub(super) fn refine(near: Sum, samples: &[Sample]) -> Sum {
+    descend(near, samples, &NEAR)
 }
 
 /// How far a sum misses each sample, in the unit of colour differences.

@@ -2,6 +2,7 @@
 
 mod fewest;
 mod fit;
+mod live;
 mod settings;
 mod stages;
 mod sum;
@@ -11,6 +12,7 @@ use onelight_lut::DirectForm;
 
 use crate::error::Error;
 use crate::reference::Reference;
+pub use live::LiveDirect;
 pub use settings::{DirectSettings, Nodes};
 use settings::{check_count, check_limit};
 use stages::Stages;
@@ -30,30 +32,34 @@ impl Reference {
     /// # Errors
     /// If a setting is out of bounds, or no number of exponentials keeps the difference that it asks for.
     pub fn direct(&self, settings: &DirectSettings) -> Result<DirectForm, Error> {
-        let stages = Stages::of(self);
+        self.direct_of(&self.direct_stages(&Stages::of(self), settings)?)
+    }
+
+    /// The sums that the settings ask for, of the film's own by 1 nm.
+    fn direct_stages(&self, full: &Stages, settings: &DirectSettings) -> Result<Stages, Error> {
         match settings.nodes {
-            Nodes::Grid { step_nm } => self.direct_of(&stages.on_grid(step_nm)?),
-            Nodes::GridUnderMaxDe(limit) => grid_under(self, &stages, limit),
+            Nodes::Grid { step_nm } => full.on_grid(step_nm),
+            Nodes::GridUnderMaxDe(limit) => grid_under(self, full, limit),
             Nodes::Counts { projection, duplication } => {
                 check_count("projection", projection)?;
-                if stages.duplication.is_some() {
+                if full.duplication.is_some() {
                     check_count("duplication", duplication)?;
                 }
-                self.direct_of(&stages.fitted(&Training::new(self)?, projection, duplication))
+                Ok(full.fitted(&Training::new(self)?, projection, duplication))
             }
-            Nodes::UnderMaxDe(limit) => fewest::under(self, &stages, limit),
+            Nodes::UnderMaxDe(limit) => fewest::under(self, full, limit),
         }
     }
 }
 
-fn grid_under(film: &Reference, stages: &Stages, limit: f64) -> Result<DirectForm, Error> {
+fn grid_under(film: &Reference, full: &Stages, limit: f64) -> Result<Stages, Error> {
     check_limit(limit)?;
     let probes = Probes::new(film)?;
     for step_nm in [10, 5, 2] {
-        let direct = film.direct_of(&stages.on_grid(step_nm)?)?;
-        if probes.largest_miss(&direct) <= limit {
-            return Ok(direct);
+        let stages = full.on_grid(step_nm)?;
+        if probes.largest_miss(&film.direct_of(&stages)?) <= limit {
+            return Ok(stages);
         }
     }
-    film.direct_of(stages)
+    Ok(full.clone())
 }
