@@ -1,11 +1,12 @@
 //! How much of a stock's data sheet, and of its known behaviour, the simulation reproduces.
 
-use onelight::film::{Density, LogExposure, PerLayer};
+use onelight::film::{AmountCurve, CharacteristicCurve, Density, LogExposure, PerLayer};
+use onelight::printing::print_mid_grey;
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{
     Basis, DisplayDifference, DisplayLinear, MID_GREY, Reconstruction, RgbSpace, SpectralShape, color_checker,
 };
-use onelight::{Aim, FilmProcess, Image, Reference, Stock, StockKind, stock, stock_ids};
+use onelight::{Aim, DyeModel, FilmProcess, Image, Reference, Stock, StockKind, stock, stock_ids};
 use serde::Serialize;
 
 use crate::error::{Error, Result};
@@ -33,6 +34,93 @@ pub struct SheetFidelity {
     pub hue: (f64, f64, String),
     /// What stands in for figures that the sheet does not show.
     pub derived: Vec<&'static str>,
+}
+
+/// What is printed on, or a camera film in black and white: nothing of it is seen by itself.
+#[derive(Debug, Clone, Serialize)]
+pub struct CurveFidelity {
+    /// The stock: `kodak-2383`.
+    pub id: String,
+    /// What it is: `paper`.
+    pub kind: &'static str,
+    /// As [`SheetFidelity::curves`], over the whole range of the sheet.
+    pub curves: f64,
+    /// As [`SheetFidelity::neutral`].
+    pub neutral: Option<f64>,
+    /// Highest density of the curves, red, green, blue.
+    pub d_max: [f64; 3],
+    /// Their steepest slopes.
+    pub slope: [f64; 3],
+    /// What stands in for figures that the sheet does not show.
+    pub derived: Vec<&'static str>,
+}
+
+/// Every print film and paper, and every black-and-white film.
+///
+/// # Errors
+/// If a sheet's curves do not reach its aim.
+pub fn all_curves() -> Result<Vec<CurveFidelity>> {
+    let mut found = Vec::new();
+    for id in stock_ids() {
+        let film = stock(id)?;
+        if film.kind().is_camera_film() && film.image() == Image::Dye {
+            continue;
+        }
+        let middle = match film.kind().is_camera_film() {
+            true => PerLayer::all(film.mid_grey()?),
+            false => print_mid_grey(&film).map_err(|error| Error::of(id, error))?,
+        };
+        let amounts = DyeModel::default().amounts(&film, middle).map_err(|error| Error::of(id, error))?;
+        let slope = film
+            .characteristic()
+            .map(|curve| curve.log_exposures().iter().map(|&h| curve.slope(LogExposure(h)).abs()).fold(0.0, f64::max));
+        found.push(CurveFidelity {
+            id: id.to_owned(),
+            kind: film.kind().word(),
+            curves: read_back(&film, amounts.as_ref(), middle)?,
+            neutral: neutral(&film)?,
+            d_max: film.characteristic().map(|curve| curve.d_max().0).to_array(),
+            slope: slope.to_array(),
+            derived: film.derived(),
+        });
+    }
+    Ok(found)
+}
+
+/// Reads the grey scale back as [`curves`] does: equal offsets from the middle of the wedge, two log10 either way.
+fn read_back(film: &Stock, amounts: PerLayer<&AmountCurve>, middle: PerLayer<LogExposure>) -> Result<f64> {
+    let dyes = film.dyes_on(SpectralShape::VISIBLE)?;
+    let mut largest = 0f64;
+    for step in -40..=40 {
+        let h = middle.map(|h| LogExposure(h.0 + f64::from(step) / 20.0));
+        let made = dyes.density(amounts.zip_map(h, AmountCurve::amount)).transmittance();
+        let sheet = film.characteristic().zip_map(h, CharacteristicCurve::density);
+        let off = film.densitometry().density(&made).zip_map(sheet, |a, b| (a.0 - b.0).abs());
+        largest = off.to_array().into_iter().fold(largest, f64::max);
+    }
+    Ok(largest)
+}
+
+/// The table of [`all_curves`] as Markdown, as docs/stocks.md holds it.
+pub fn table_of_curves(found: &[CurveFidelity]) -> String {
+    let mut text =
+        "| stock | kind | curves | neutral | D-max | steepest slope | stands in |\n|---|---|---|---|---|---|---|\n"
+            .to_owned();
+    for l in found {
+        let three =
+            |[r, g, b]: [f64; 3]| if r == g && g == b { format!("{r:.2}") } else { format!("{r:.2}/{g:.2}/{b:.2}") };
+        let neutral = l.neutral.map_or_else(|| "-".to_owned(), |v| format!("{v:.3}"));
+        let derived = if l.derived.is_empty() { "nothing".to_owned() } else { l.derived.join(", ") };
+        text.push_str(&format!(
+            "| {} | {} | {:.3} | {neutral} | {} | {} | {derived} |\n",
+            l.id,
+            l.kind,
+            l.curves,
+            three(l.d_max),
+            three(l.slope)
+        ));
+    }
+    text
 }
 
 /// Every camera film in colour: negatives on 2383, reversal and instant film as it is.
@@ -209,6 +297,8 @@ mod tests {
         for line in table(&all().unwrap()).lines() {
             assert!(docs.lines().any(|written| written == line), "docs/stocks.md lacks: {line}");
         }
+        let curves = table_of_curves(&all_curves().unwrap());
+        assert!(docs.contains(&curves), "docs/stocks.md lacks:\n{curves}");
     }
 
     #[test]

@@ -70,8 +70,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
 fn fidelity(arguments: &Arguments) -> Result<Report> {
     use onelight_benches::sheet_fidelity;
 
-    let found = sheet_fidelity::all()?;
-    Ok(Report { text: sheet_fidelity::table(&found), json: serde_json::to_value(found)?, as_json: arguments.json })
+    let (found, curves) = (sheet_fidelity::all()?, sheet_fidelity::all_curves()?);
+    let text = format!("{}\n{}", sheet_fidelity::table(&found), sheet_fidelity::table_of_curves(&curves));
+    Ok(Report { text, json: json!({ "camera_films": found, "other_stocks": curves }), as_json: arguments.json })
 }
 
 /// The stocks of a kind, or of a maker, in the order of the list.
