@@ -1,6 +1,9 @@
 use std::io::Cursor;
 
-use onelight_picture::{Limits, Picture};
+use onelight_picture::{
+    BandSink, BandView, Channels, Description, JpegSettings, Limits, Metadata, Picture, PngSettings, Source,
+    TiffSettings, open, write_exr, write_jpeg, write_png, write_tiff,
+};
 
 use super::{Met, lut, refused};
 
@@ -28,7 +31,47 @@ pub fn check(bytes: &[u8]) -> Met {
         (None, None) => assert!(same(rgb.as_flattened(), again.rgb.as_flattened()), "colours changed"),
         _ => panic!("coverage came or went"),
     }
+    check_metadata(bytes);
     Met::Read
+}
+
+/// What is said of how a picture was taken is written in every format and read again; a second time nothing is lost.
+fn check_metadata(bytes: &[u8]) {
+    let read = |bytes: &[u8]| {
+        let picture =
+            open(Cursor::new(bytes), "", LIMITS).unwrap_or_else(|error| panic!("our own file is refused: {error}"));
+        picture.description().metadata.clone()
+    };
+    let kinds = [
+        |file: &mut Cursor<Vec<u8>>, picture: &Description| write_exr(file, picture, &[], pixel),
+        |file: &mut Cursor<Vec<u8>>, picture: &Description| {
+            write_png(file, picture, PngSettings::default(), &[], pixel)
+        },
+        |file: &mut Cursor<Vec<u8>>, picture: &Description| {
+            write_tiff(file, picture, TiffSettings::default(), &[], pixel)
+        },
+        |file: &mut Cursor<Vec<u8>>, picture: &Description| {
+            write_jpeg(file, picture, JpegSettings::default(), &[], pixel)
+        },
+    ];
+    let through = |kind: usize, metadata: &Metadata| {
+        let picture = Description { metadata: metadata.clone(), ..Description::new(1, 1, Channels::Rgb, Source::Exr) };
+        let mut file = Cursor::new(Vec::new());
+        kinds[kind](&mut file, &picture).unwrap_or_else(|error| panic!("cannot be written: {error}"));
+        read(file.get_ref())
+    };
+    let own = read(bytes);
+    if own.is_empty() {
+        return;
+    }
+    for kind in 0..kinds.len() {
+        let once = through(kind, &own);
+        assert_eq!(through(kind, &once), once, "a second time something is lost");
+    }
+}
+
+fn pixel(sink: &mut dyn BandSink) -> Result<(), onelight_picture::Error> {
+    sink.write(BandView { top: 0, width: 1, rgb: &[[0.5; 3]], alpha: None })
 }
 
 /// The same for a PNG, which may also hold a table.

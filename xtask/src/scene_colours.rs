@@ -40,7 +40,7 @@ pub(crate) fn read(paths: &[PathBuf], process: &Process) -> Result<Option<Vec<[f
 pub(crate) fn to_input_space(own: Option<&RgbSpace>, process: &Process) -> Result<Option<Matrix3<f64>>> {
     let Some(own) = own else { return Ok(None) };
     let matrix = own.to_about(&process.spaces().input_space.space(), Chromaticity::black_body_6500_k());
-    matrix.map(Some).context("its chromaticities")
+    matrix.map(Some).context("its chromaticities make no colour space")
 }
 
 /// The space of chromaticities as a file gives them; that of a standard where they are its own, rounded.

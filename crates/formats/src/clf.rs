@@ -1,4 +1,5 @@
 mod build;
+mod cdl;
 mod coupling;
 mod op;
 mod read;
@@ -24,9 +25,9 @@ use op::Op;
 /// matrix, where it would become NaN; NaN in a colour reads as the lower end of that range. With an input matrix that is
 /// -1e16, whose effect on the other channels differs from [`onelight_lut::StructuredLut`], where NaN counts as 0.
 ///
-/// Reading takes the operations `Matrix`, `Range`, `Log`, `Exponent`, `LUT1D` and `LUT3D` in any order and of every style,
+/// Reading takes the operations `Matrix`, `Range`, `Log`, `Exponent`, `ASC_CDL`, `LUT1D` and `LUT3D` in any order and of every style,
 /// in depths of floats and integers, the codes of which become parts of the largest: [`ClfProcess::apply`] takes and gives numbers
-/// of which 1 is white. `ASC_CDL`, half-float domains and raw halfs are refused by name; so are files without an operation or an
+/// of which 1 is white. Half-float domains and raw halfs are refused by name; so are files without an operation or an
 /// id, and operations whose depths do not join.
 ///
 /// ```

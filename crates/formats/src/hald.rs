@@ -41,11 +41,12 @@ pub fn write<S: AsRef<str>>(
     picture::write(writer, [level * size; 2], depth, table.entries(), comments)
 }
 
-/// Reads a Hald CLUT from a PNG of 8 or 16 bits, of at most 256 MiB.
+/// Reads a Hald CLUT from a PNG of 8 or 16 bits, of at most 256 MiB; one in grey, which programs write for looks in black and white,
+/// gives equal entries.
 ///
 /// # Errors
 ///
-/// If the input fails, is no PNG in colour, is damaged, or its sides are not `L^3` with a level `L` from 2 to 16. The side is
+/// If the input fails, is no PNG, is damaged, or its sides are not `L^3` with a level `L` from 2 to 16. The side is
 /// checked before memory for pixels is taken: 128 MiB for the largest, and 192 MiB for its entries.
 pub fn read(input: impl Read) -> Result<Lut3d, Error> {
     let (size, picture) = picture::read(input, |width, height| {

@@ -60,6 +60,7 @@
         feature = "ocio",
         feature = "pictures",
         feature = "ktx2",
+        feature = "dctl",
         feature = "direct-json"
     )),
     allow(dead_code, reason = "pieces that a family of files left out has in common with others")
@@ -69,6 +70,8 @@
 mod clf;
 #[cfg(feature = "cube")]
 mod cube;
+#[cfg(feature = "dctl")]
+pub mod dctl;
 #[cfg(feature = "direct-json")]
 pub mod direct_json;
 mod error;

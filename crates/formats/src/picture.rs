@@ -107,9 +107,11 @@ pub(super) fn read<T>(
     let mut reader = decoder.read_info().map_err(|error| decoding(&error))?;
     let (colour, depth) = reader.output_color_type();
     let channels = match colour {
+        ColorType::Grayscale => 1,
+        ColorType::GrayscaleAlpha => 2,
         ColorType::Rgb => 3,
         ColorType::Rgba => 4,
-        other => return Err(refuse("colours of a PNG that holds a table", format!("{other:?}"), "RGB")),
+        ColorType::Indexed => return Err(refuse("colours of a PNG that holds a table", "a palette".to_owned(), "RGB")),
     };
     let size = reader.output_buffer_size().unwrap_or(usize::MAX);
     if size / EXPANSION > file.len() {
@@ -125,12 +127,13 @@ pub(super) fn read<T>(
     Ok((checked, Picture { width, pixels }))
 }
 
-/// Colours from samples of `N` bytes; what coverage there is does not matter.
+/// Colours from samples of `N` bytes, one or three a pixel; what coverage there is does not matter.
 fn colours<const N: usize>(channels: usize, bytes: &[u8], value: impl Fn([u8; N]) -> f32) -> Vec<[f32; 3]> {
     let (samples, _) = bytes.as_chunks::<N>();
     let colour = |pixel: &[[u8; N]]| match pixel {
         [r, g, b, ..] => Some([*r, *g, *b].map(&value)),
-        _ => None,
+        [grey, ..] => Some([value(*grey); 3]),
+        [] => None,
     };
     samples.chunks_exact(channels).filter_map(colour).collect()
 }

@@ -1,6 +1,6 @@
 //! What a file says of its picture before the pixels.
 
-use crate::transfer::Transfer;
+use crate::{metadata::Metadata, transfer::Transfer};
 
 /// What a file says of its picture before the pixels, and what a writer needs to know of it.
 ///
@@ -33,6 +33,8 @@ pub struct Description {
     pub colours_said_by: Option<String>,
     /// What kind of file it is.
     pub source: Source,
+    /// How the picture was taken, as far as the file says it and it stays true.
+    pub metadata: Metadata,
     /// What the reader chose among several layers or leaves out, a sentence each, for the user. Writers do not look at them.
     pub notes: Vec<String>,
 }
@@ -52,6 +54,7 @@ impl Description {
             transfer: None,
             colours_said_by: None,
             source,
+            metadata: Metadata::default(),
             notes: Vec::new(),
         }
     }

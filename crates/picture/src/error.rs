@@ -60,6 +60,28 @@ impl Error {
         self.class() == Class::Limit
     }
 
+    /// The field of [`Limits`](crate::Limits) that the picture goes over, where one of them is what refuses it.
+    ///
+    /// ```
+    /// # use std::io::Cursor;
+    /// use onelight_picture::{Limits, open};
+    /// # use onelight_picture::{Picture, Source};
+    /// # let mut file = Cursor::new(Vec::new());
+    /// # Picture::opaque(3, 2, vec![[0.5; 3]; 6], Source::Exr).write_exr(&mut file, &[])?;
+    ///
+    /// let error = open(file, "a.exr", Limits { max_pixels: 5, ..Limits::default() }).unwrap_err();
+    /// assert_eq!(error.limit_field(), Some("max_pixels"));
+    /// # Ok::<(), onelight_picture::Error>(())
+    /// ```
+    pub fn limit_field(&self) -> Option<&'static str> {
+        match &*self.kind {
+            Kind::Limit(LimitProblem::Pixels { .. }) => Some("max_pixels"),
+            Kind::Limit(LimitProblem::Side { .. }) => Some("max_side"),
+            Kind::Limit(LimitProblem::Bytes { .. }) => Some("max_bytes"),
+            _ => None,
+        }
+    }
+
     /// Whether the file is of a format, or uses a feature of its format, that this crate does not read.
     pub fn is_unsupported(&self) -> bool {
         self.class() == Class::Unsupported

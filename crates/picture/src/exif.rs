@@ -5,6 +5,7 @@ use std::io::{Cursor, Read, Seek};
 use crate::{
     description::Chromaticities,
     file_colours::FileColours,
+    metadata::{EXIF_DIRECTORY, ExifTags},
     orientation::Orientation,
     tiff_directory::{Directory, TiffFile},
     transfer::Transfer,
@@ -14,7 +15,6 @@ use crate::{
 pub(crate) const MAX_BYTES: usize = 1 << 20;
 
 const ORIENTATION: u16 = 274;
-const EXIF_DIRECTORY: u16 = 34_665;
 const INTEROPERABILITY_DIRECTORY: u16 = 40_965;
 const INTEROPERABILITY_INDEX: u16 = 1;
 const COLOUR_SPACE: u16 = 40_961;
@@ -24,6 +24,7 @@ const COLOUR_SPACE: u16 = 40_961;
 pub(crate) struct Exif {
     pub(crate) orientation: Orientation,
     pub(crate) colours: Option<FileColours>,
+    pub(crate) tags: ExifTags,
 }
 
 /// Reads a block of EXIF, which is a TIFF without a picture; what is damaged in it is as if it were not there.
@@ -37,7 +38,8 @@ pub(crate) fn read(block: &[u8]) -> Exif {
     let Ok(directory) = file.directory(first) else { return Exif::default() };
     let orientation = file.first(&directory, ORIENTATION).ok().flatten();
     let orientation = Orientation::from_exif(orientation);
-    Exif { orientation, colours: colours(&mut file, &directory) }
+    let tags = ExifTags::read(&mut file, &directory);
+    Exif { orientation, colours: colours(&mut file, &directory), tags }
 }
 
 /// What the EXIF below a directory says of the colours: that of a JPEG's or PNG's block, or of a TIFF's page.

@@ -75,6 +75,8 @@ pub(crate) fn open<'a>(
     if is_xyz {
         description.tristimulus = Tristimulus::Xyz;
     }
+    reader.seek(SeekFrom::Start(0))?;
+    description.metadata.exr = exr_boxes::metadata(&mut reader, layout.part);
     let blocks = Blocks::open(reader, length, tables_at, &meta, layout.part)?;
     let bands: Box<dyn Bands + 'a> = match layout.colours {
         Colours::LuminanceChroma { step } => {

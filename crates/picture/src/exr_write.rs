@@ -1,6 +1,6 @@
 //! Writing OpenEXR.
 
-use std::io::{Seek, Write};
+use std::io::{Seek, SeekFrom, Write};
 
 use exr::{
     block::{BlockIndex, UncompressedBlock, chunk::Chunk, writer::ChunksWriter},
@@ -9,7 +9,8 @@ use exr::{
     meta::{
         BlockDescription, MetaData,
         attribute::{
-            AttributeValue, ChannelDescription, Chromaticities as Primaries, IntegerBounds, LineOrder, SampleType, Text,
+            self, AttributeValue, ChannelDescription, Chromaticities as Primaries, IntegerBounds, LineOrder,
+            SampleType, Text,
         },
         header::{Header, ImageAttributes, LayerAttributes},
     },
@@ -23,6 +24,7 @@ use crate::{
     description::{Channels, Description},
     error::{Error, WriteProblem},
     limits::grow,
+    metadata::ExrAttribute,
 };
 
 /// Rows of a block of ZIP.
@@ -33,8 +35,8 @@ const BLOCK_ROWS: usize = 16;
 ///
 /// Nothing is clipped. `texts` become string attributes, of a key and a value each; `Software` is the standard one of that
 /// name. The crate below keeps others in unordered maps, one of the part and one of the picture: two have a fixed order, so
-/// that the same picture is always the same file, and a third is refused. The writer is best buffered; it is flushed, and
-/// left anywhere.
+/// that the same picture is always the same file, and a third is refused. Attributes that were read are kept. The writer is best
+/// buffered; it is flushed, and left anywhere.
 ///
 /// ```
 /// use std::io::Cursor;
@@ -78,9 +80,12 @@ fn write_bands(
     fill: Fill<'_>,
 ) -> Result<(), Error> {
     check_windows(picture)?;
-    let headers = std::iter::once(header(picture, texts)?).collect();
+    let header = header(picture, texts)?;
+    let (kept, strict) = (kept_in_order(picture, &header)?, picture.metadata.exr.is_empty());
+    let headers = std::iter::once(header).collect();
     let mut unfinished = None;
-    let written = exr::block::write(writer, headers, true, |meta, chunks| {
+    // Its strict checks let nobody write the standard's attributes as they were read.
+    let written = exr::block::write(&mut *writer, headers, strict, |meta, chunks| {
         let mut blocks = ExrBlocks { chunks, meta: &meta, channels: picture.channels, rows: Vec::new(), row: 0 };
         // The crate's own error has no room for ours.
         if !fill(&mut blocks) {
@@ -92,9 +97,35 @@ fn write_bands(
         })
     });
     match unfinished {
-        Some(error) => Err(error),
-        None => written.map_err(cannot_write),
+        Some(error) => return Err(error),
+        None => written.map_err(cannot_write)?,
     }
+    if let Some(attributes) = kept {
+        writer.seek(SeekFrom::Start(ATTRIBUTES_AT)).map_err(WriteProblem::Io)?;
+        writer.write_all(&attributes).map_err(WriteProblem::Io)?;
+        writer.flush().map_err(WriteProblem::Io)?;
+    }
+    Ok(())
+}
+
+/// Where the attributes begin: after the magic number and the version.
+const ATTRIBUTES_AT: u64 = 8;
+
+/// The attributes of a header by name, where there are more than have an order: the crate keeps them in a map of none, and the same
+/// picture is to be the same file.
+fn kept_in_order(picture: &Description, header: &Header) -> Result<Option<Vec<u8>>, Error> {
+    if picture.metadata.exr.is_empty() {
+        return Ok(None);
+    }
+    let mut attributes = Vec::new();
+    for (name, value) in header.all_named_attributes() {
+        let mut bytes = Vec::new();
+        attribute::write(name, &value, &mut bytes).map_err(cannot_write)?;
+        attributes.push(bytes);
+    }
+    // Each begins with its name and a zero.
+    attributes.sort();
+    Ok(Some(attributes.concat()))
 }
 
 /// Refuses windows without pixels, and those that 32 bits cannot say, on which the crate below panics.
@@ -213,6 +244,13 @@ fn header(picture: &Description, texts: &[(&str, &str)]) -> Result<Header, Error
     let mut own = LayerAttributes::default().with_position(Vec2(x, y));
     let mut shared = shared_attributes(picture);
     add_texts(texts, &mut own, &mut shared)?;
+    for ExrAttribute { name, kind, bytes } in &picture.metadata.exr {
+        let (Some(name), Some(kind)) = (Text::new_or_none(name), Text::new_or_none(kind)) else { continue };
+        let value = AttributeValue::Custom { kind, bytes: bytes.as_slice().into() };
+        if !shared.other.contains_key(&name) {
+            own.other.entry(name).or_insert(value);
+        }
+    }
     Ok(Header::new(Text::default(), (picture.width, picture.height), channels)
         .with_encoding(Compression::ZIP16, BlockDescription::ScanLines, LineOrder::Increasing)
         .with_attributes(own)

@@ -55,6 +55,7 @@ pub(crate) fn open<'a>(
 
     let mut description = Description::new(width, height, Channels::Rgb, Source::Jpeg);
     let exif = decoder.exif().map(|block| exif::read(block)).unwrap_or_default();
+    description.metadata.exif = exif.tags;
     #[cfg(feature = "icc")]
     if let Some(profile) = decoder.icc_profile() {
         match crate::icc::colours(&profile) {

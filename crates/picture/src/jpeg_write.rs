@@ -43,7 +43,7 @@ impl Default for JpegSettings {
 /// pixel, until it is compressed.
 ///
 /// The tag becomes an ICC profile of a matrix and a curve; `texts`, a key and a value each, become application segments
-/// of up to 65 533 bytes.
+/// of up to 65 533 bytes, as does EXIF.
 ///
 /// ```
 /// use onelight_picture::{BandView, Channels, Description, Error, JpegSettings, Source, write_jpeg};
@@ -101,6 +101,9 @@ fn write_bands(
     let mut encoder = Encoder::new(&mut *writer, settings.quality.clamp(1, 100));
     encoder.set_sampling_factor(SamplingFactor::F_1_1);
     encoder.set_optimized_huffman_tables(true);
+    if let Some(block) = picture.metadata.exif.block() {
+        encoder.add_app_segment(1, [&b"Exif\0\0"[..], &block].concat()).map_err(problem)?;
+    }
     if let Some(profile) = settings.tag.as_ref().and_then(icc_write::profile) {
         encoder.add_icc_profile(&profile).map_err(problem)?;
     }

@@ -110,6 +110,7 @@ mod jpeg_read;
 #[cfg(feature = "jpeg")]
 mod jpeg_write;
 mod limits;
+mod metadata;
 mod metadata_text;
 mod orientation;
 mod panic_to_error;
@@ -119,7 +120,6 @@ mod png_read;
 mod png_write;
 mod reader;
 mod selection;
-#[cfg(any(feature = "jpeg", feature = "png", feature = "tiff"))]
 mod tiff_directory;
 #[cfg(feature = "tiff")]
 mod tiff_header;
@@ -145,6 +145,7 @@ pub use exr_write::write_exr;
 #[cfg(feature = "jpeg")]
 pub use jpeg_write::{JpegSettings, write_jpeg};
 pub use limits::Limits;
+pub use metadata::Metadata;
 pub use metadata_text::text_of_complete_picture;
 pub use panic_to_error::silence_panics_while_reading;
 #[cfg(feature = "png")]

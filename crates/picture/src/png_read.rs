@@ -57,6 +57,7 @@ fn start<'a>(reader: Input<'a>, length: u64, limits: &Limits) -> Result<(Descrip
     }
     let mut description = Description::new(width as usize, height as usize, channels, Source::Png { bits });
     let exif = reader.info().exif_metadata.as_ref().map(|block| exif::read(block)).unwrap_or_default();
+    description.metadata.exif = exif.tags;
     if let Some(colours) = colours(reader.info(), &mut description.notes).or(exif.colours) {
         colours.describe(&mut description);
     }

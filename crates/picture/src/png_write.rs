@@ -60,7 +60,8 @@ const CHUNK_BYTES: usize = 1 << 16;
 ///
 /// The tag becomes the chunks `sRGB`, `gAMA`, `cHRM` and `cICP` as far as they can say it, and an ICC profile where primaries have
 /// negative coordinates; `texts`, a key and a value each,
-/// become `tEXt`, or `iTXt` beyond Latin-1, with keys as PNG has them (`Software`, `Title`, ...). The writer is best
+/// become `tEXt`, or `iTXt` beyond Latin-1, with keys as PNG has them (`Software`, `Title`, ...);
+/// EXIF becomes `eXIf`. The writer is best
 /// buffered; it is flushed.
 ///
 /// ```
@@ -133,6 +134,9 @@ fn write_bands(
     if let Some(points) = tag.as_ref().and_then(code_points) {
         // The crate reads this chunk but does not write it. It comes before the pixels, as it must.
         writer.write_chunk(png::chunk::ChunkType(*b"cICP"), &points).map_err(problem)?;
+    }
+    if let Some(block) = picture.metadata.exif.block() {
+        writer.write_chunk(png::chunk::ChunkType(*b"eXIf"), &block).map_err(problem)?;
     }
     let samples = match bits {
         PngBits::Eight => Samples::Eight(dither),

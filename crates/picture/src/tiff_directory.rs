@@ -44,6 +44,27 @@ struct Entry {
     at: u64,
 }
 
+/// A tag with its values, big-endian.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct RawTag {
+    pub(crate) tag: u16,
+    pub(crate) kind: u16,
+    pub(crate) count: u32,
+    pub(crate) bytes: Vec<u8>,
+}
+
+impl RawTag {
+    /// A tag of one number of 32 bits.
+    pub(crate) fn long(tag: u16, number: u32) -> Self {
+        Self { tag, kind: 4, count: 1, bytes: number.to_be_bytes().to_vec() }
+    }
+
+    /// A tag of a text, which ends with a zero.
+    pub(crate) fn ascii(tag: u16, text: &str) -> Self {
+        Self { tag, kind: 2, count: text.len() as u32 + 1, bytes: [text.as_bytes(), &[0]].concat() }
+    }
+}
+
 impl<R: Read + Seek> TiffFile<R> {
     /// A file of `length` bytes, and where its first directory lies.
     pub(crate) fn open(mut reader: R, length: u64) -> Result<(Self, u64), Error> {
@@ -113,6 +134,25 @@ impl<R: Read + Seek> TiffFile<R> {
     /// The bytes of a tag, at most `max`; `None` where it is not there.
     pub(crate) fn bytes(&mut self, directory: &Directory, tag: u16, max: u64) -> Result<Option<Vec<u8>>, Error> {
         directory.entry(tag).map(|entry| self.data(entry, 1, max)).transpose()
+    }
+
+    /// The tags of up to `max` bytes each that are whole, of types that classic TIFF has.
+    pub(crate) fn tags(&mut self, directory: &Directory, max: u64) -> Vec<RawTag> {
+        let raw = |entry: &Entry| {
+            let each = bytes_of(entry.kind).filter(|_| entry.kind <= 12)?;
+            let total = entry.count.checked_mul(each).filter(|total| (1..=max).contains(total))?;
+            if entry.at.checked_add(total).is_none_or(|end| end > self.length) {
+                return None;
+            }
+            let mut bytes = self.read_at(entry.at, total).ok()?;
+            // A rational is two numbers of 32 bits.
+            let number = if matches!(entry.kind, 5 | 10) { 4 } else { each as usize };
+            if self.order == Order::Little {
+                bytes.chunks_exact_mut(number).for_each(<[u8]>::reverse);
+            }
+            Some(RawTag { tag: entry.tag, kind: entry.kind, count: entry.count as u32, bytes })
+        };
+        directory.entries.iter().filter_map(raw).collect()
     }
 
     /// Bytes of the picture, which lie at `at`.

@@ -13,6 +13,7 @@ use crate::{
     file_colours::FileColours,
     input::Input,
     limits::Limits,
+    metadata::ExifTags,
     orientation::{Orientation, upright},
     panic_to_error::panic_to_error,
     tiff_directory::{Directory, TiffFile},
@@ -47,6 +48,7 @@ pub(crate) fn open<'a>(
     description.notes.extend(page.notes);
     description.notes.extend(header.notes.iter().cloned());
     colours(&mut file, &page.directory, &mut description);
+    description.metadata.exif = ExifTags::read(&mut file, &page.directory);
     let orientation = Orientation::from_exif(file.first(&page.directory, tag::ORIENTATION).ok().flatten());
     let bands = TiffBands { file, header, channels, max_bytes: limits.max_bytes, next: 0, begun: Vec::new() };
     upright(orientation, description, Box::new(bands), limits)

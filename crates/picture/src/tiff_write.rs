@@ -10,7 +10,9 @@ use crate::{
     dither::Dither,
     error::{Error, WriteProblem},
     icc_write,
+    metadata::{self, EXIF_DIRECTORY, GPS_DIRECTORY, IMAGE_DESCRIPTION, Metadata},
     metadata_text::text_line,
+    tiff_directory::RawTag,
 };
 
 /// How a TIFF is written.
@@ -58,7 +60,7 @@ const ROOM_FOR_TAGS: u64 = 1 << 24;
 /// transparent where there is alpha. Returns what `fill` returns. Memory is that of a band.
 ///
 /// The tag becomes an ICC profile of a matrix and a curve; of the `texts`, a key and a value each, `Software` becomes the tag
-/// of that name, and the others lines of the description. The writer is best buffered; it is flushed, and left anywhere.
+/// of that name, and the others lines of the description, before those of the picture's own; EXIF is kept. The writer is best buffered; it is flushed, and left anywhere.
 ///
 /// ```
 /// use std::io::Cursor;
@@ -125,11 +127,12 @@ fn write_bands(
     rows.finish()?;
     let rows_per_strip = (STRIP_BYTES / row_bytes).max(1).min(height);
     let directory = directory(picture, settings, texts, samples, [row_bytes, rows_per_strip]);
-    finish(writer, 8 + bytes, directory).map_err(|error| WriteProblem::Io(error).into())
+    finish(writer, 8 + bytes, directory, &picture.metadata).map_err(|error| WriteProblem::Io(error).into())
 }
 
 /// The values of a tag.
 enum Values {
+    Raw(RawTag),
     Short(Vec<u16>),
     Long(Vec<u32>),
     Ascii(String),
@@ -164,8 +167,18 @@ fn directory(
         (284, Values::Short(vec![1])),
         (339, Values::Short(vec![format; count])),
     ];
-    if !others.is_empty() {
-        tags.push((270, Values::Ascii(others.join("\n"))));
+    let mut description = others.join("\n");
+    for tag in &picture.metadata.exif.first {
+        if tag.tag == IMAGE_DESCRIPTION {
+            let own = String::from_utf8_lossy(&tag.bytes);
+            let between = if description.is_empty() { "" } else { "\n" };
+            description = format!("{description}{between}{}", own.trim_end_matches('\0'));
+        } else {
+            tags.push((tag.tag, Values::Raw(tag.clone())));
+        }
+    }
+    if !description.is_empty() {
+        tags.push((IMAGE_DESCRIPTION, Values::Ascii(description)));
     }
     if let Some(software) = software {
         tags.push((305, Values::Ascii(software.to_owned())));
@@ -176,13 +189,27 @@ fn directory(
     if let Some(profile) = settings.tag.as_ref().and_then(icc_write::profile) {
         tags.push((34_675, Values::Undefined(profile)));
     }
-    tags.sort_by_key(|(tag, _)| *tag);
     tags
 }
 
-fn finish(writer: &mut dyn WriteSeek, at: u64, tags: Vec<(u16, Values)>) -> std::io::Result<()> {
-    let start = at.next_multiple_of(2);
+/// Writes the directories: those below the first lie before it.
+fn finish(
+    writer: &mut dyn WriteSeek,
+    at: u64,
+    mut tags: Vec<(u16, Values)>,
+    metadata: &Metadata,
+) -> std::io::Result<()> {
+    let mut start = at.next_multiple_of(2);
     let mut file = vec![0; (start - at) as usize];
+    for (pointer, own) in [(EXIF_DIRECTORY, &metadata.exif.exif), (GPS_DIRECTORY, &metadata.exif.gps)] {
+        if !own.is_empty() {
+            tags.push((pointer, Values::Long(vec![start as u32])));
+            let bytes = metadata::directory(own, start as u32);
+            start += bytes.len() as u64;
+            file.extend(bytes);
+        }
+    }
+    tags.sort_by_key(|(tag, _)| *tag);
     file.extend((tags.len() as u16).to_be_bytes());
     let mut beyond = start + 2 + 12 * tags.len() as u64 + 4;
     let mut values = Vec::new();
@@ -192,6 +219,7 @@ fn finish(writer: &mut dyn WriteSeek, at: u64, tags: Vec<(u16, Values)>) -> std:
             Values::Long(words) => (4, words.len(), words.iter().flat_map(|word| word.to_be_bytes()).collect()),
             Values::Ascii(text) => (2, text.len() + 1, [text.as_bytes(), &[0]].concat()),
             Values::Undefined(bytes) => (7, bytes.len(), bytes),
+            Values::Raw(RawTag { kind, count, bytes, .. }) => (kind, count as usize, bytes),
         };
         file.extend([tag.to_be_bytes(), kind.to_be_bytes()].concat());
         file.extend((count as u32).to_be_bytes());

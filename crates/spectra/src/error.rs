@@ -62,7 +62,7 @@ impl fmt::Display for Error {
             ErrorKind::Chromaticity { what, x, y } => {
                 write!(
                     f,
-                    "{what}: found xy ({x}, {y}), expected finite values with y > 0 and three primaries that span a triangle"
+                    "{what}: found xy ({x}, {y}), expected a white with y > 0 and three primaries that span a triangle, all finite"
                 )
             }
             ErrorKind::Temperature { found } => {

@@ -60,7 +60,9 @@ pub(super) fn clf() -> Result<Vec<Seed>, Fault> {
         ("lut1d", r#"<LUT1D D interpolation="linear"><Array dim="3 1">0 .1 1</Array></LUT1D><LUT1D D><Array dim="2 3">0 0 0 1 .5 2</Array></LUT1D>"#.to_owned()),
         ("lut3d", r#"<LUT3D D interpolation="trilinear"><Array dim="2 2 2 3">0 0 0 0 0 1 0 1 0 0 1 1 1 0 0 1 0 1 1 1 0 1 1 1</Array></LUT3D>"#.to_owned()),
         ("text", "<Info><Deep/></Info><Description><![CDATA[a < b]]> &amp; &#233;</Description><!-- a comment --><Log D style=\"log2\"><Description>within</Description></Log>".to_owned()),
-        ("refused-cdl", "<ASC_CDL D/>".to_owned()),
+        ("cdl", ["Fwd", "Rev", "FwdNoClamp", "RevNoClamp"].map(|s| format!(
+            r#"<ASC_CDL D style="{s}"><SOPNode><Slope>1.2 .9 1.1</Slope><Offset>.02 -.05 .1</Offset><Power>.8 1.3 1</Power></SOPNode><SatNode><Saturation>1.4</Saturation></SatNode></ASC_CDL>"#
+        )).concat()),
         ("refused-depth", r#"<Matrix inBitDepth="10i" outBitDepth="32f"/>"#.to_owned()),
     ];
     seeds.extend(operations.map(|(name, operations)| {

@@ -218,4 +218,55 @@ fn pictures_outside_of_their_frame_are_told() {
     fs::write(folder.join("a.exr"), bytes.into_inner()).unwrap();
     let said = developed(folder, &["a.exr", "a.png", "--approach", "clip"]);
     assert!(said.contains("outside of its display window"), "{said}");
+    flat(folder, "b.exr", [0.18; 3], Some(f32::NAN), None);
+    let said = developed(folder, &["b.exr", "b.png", "--approach", "clip"]);
+    assert!(said.contains("the alpha of 6 pixels is NaN or infinite"), "{said}");
+}
+
+#[test]
+fn exif_and_attributes_are_kept_unless_they_are_not_wanted() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let corpus = |name: &str| fixtures().join("corpus").join(name).to_str().unwrap().to_owned();
+    let has = |name: &str, text: &str| {
+        fs::read(folder.join(name)).unwrap().windows(text.len()).any(|window| window == text.as_bytes())
+    };
+    for (from, to, text) in [
+        ("jpeg/phone.jpg", "a.jpg", "Phone 1"),
+        ("jpeg/phone.jpg", "a.png", "2026:01:02 03:04:05"),
+        ("jpeg/phone.jpg", "a.tif", "a walk"),
+        ("exr/attributes.exr", "a.exr", "RenderTime"),
+    ] {
+        let from = corpus(from);
+        developed(folder, &[&from, to, "--approach", "clip"]);
+        assert!(has(to, text) && has(to, "onelight look"), "{to}");
+        developed(folder, &[&from, to, "--approach", "clip", "--metadata", "none"]);
+        assert!(!has(to, text) && has(to, "onelight look"), "{to}");
+    }
+    // What was turned is not turned again.
+    let said = developed(folder, &[&corpus("jpeg/phone.jpg"), "b.jpg", "--approach", "clip"]);
+    assert!(said.contains("turned the picture upright"), "{said}");
+    let said = developed(folder, &["b.jpg", "c.jpg", "--approach", "clip"]);
+    assert!(!said.contains("upright"), "{said}");
+}
+
+/// Each refusal names what was typed, and what to type instead.
+#[test]
+fn refusals_name_the_way_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let none = Chromaticities { red: [0.0; 2], green: [0.0; 2], blue: [0.0; 2], white: [0.0; 2] };
+    flat(folder, "a.exr", [0.18; 3], None, Some(none));
+    for (options, expected) in [
+        (&[][..], "expected --input-space with the space that is meant"),
+        (&["--max-pixels", "5"], "(--max-pixels allows more)"),
+        (&["--contrast", "1.5"], "contrast: a control of approach first"),
+        (&["--temperature", "5000", "--saturation", "2"], "temperature, saturation: a control of approach first"),
+        (&["--curve=-2:0.2,0:0.5"], "curve: a control of approach first"),
+    ] {
+        let output = program().args(["develop", "a.exr", "a.png"]).args(options).current_dir(folder).output().unwrap();
+        let sentence = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(2) && sentence.contains(expected), "{options:?}: {sentence}");
+    }
+    developed(folder, &["a.exr", "a.png", "--approach", "clip", "--input-space", "srgb"]);
 }

@@ -1,5 +1,7 @@
 use onelight_lut::{Interpolation, Lut1d, Lut3d, PowerCoding};
 
+use super::cdl::Cdl;
+
 /// Smallest value whose logarithm is taken: the smallest normal `f32`, as the format wants it \[S2014-006\].
 const LOG_MIN: f64 = f32::MIN_POSITIVE as f64;
 
@@ -19,6 +21,7 @@ pub(super) enum Op {
         style: ExponentStyle,
         channels: [Power; 3],
     },
+    Cdl(Cdl),
     /// Over the domain 0 to 1.
     Lut1d(Lut1d),
     Lut3d(Lut3d, Interpolation),
@@ -111,6 +114,7 @@ impl Op {
             Self::Range(_) => "Range",
             Self::Log { .. } => "Log",
             Self::Exponent { .. } => "Exponent",
+            Self::Cdl(_) => "ASC_CDL",
             Self::Lut1d(_) => "LUT1D",
             Self::Lut3d(..) => "LUT3D",
         }
@@ -128,6 +132,7 @@ impl Op {
                 Direction::Reverse => channels[i].reverse(rgb[i]),
             }),
             Self::Exponent { style, channels } => std::array::from_fn(|i| style.apply(channels[i], rgb[i])),
+            Self::Cdl(cdl) => cdl.apply(rgb),
             Self::Lut1d(lut) => lut.apply(rgb.map(|v| v as f32)).map(f64::from),
             Self::Lut3d(lut, interpolation) => lut.apply(rgb.map(|v| v as f32), *interpolation).map(f64::from),
         }

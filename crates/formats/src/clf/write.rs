@@ -4,6 +4,7 @@ use std::io::{self, BufWriter, Write};
 use quick_xml::escape::escape;
 
 use super::ClfProcess;
+use super::cdl::Cdl;
 use super::op::{Beyond, Direction, LogCurve, Op, Power, Range};
 use crate::error::Error;
 use crate::node_order::blue_fastest;
@@ -81,6 +82,7 @@ fn operation(out: &mut impl Write, op: &Op) -> io::Result<()> {
                 }
             })?;
         }
+        Op::Cdl(list) => cdl(out, list)?,
         Op::Lut1d(lut) => lut1d(out, lut)?,
         Op::Lut3d(lut, interpolation) => lut3d(out, lut, *interpolation)?,
     }
@@ -143,6 +145,17 @@ fn log(out: &mut impl Write, direction: Direction, channels: &[LogCurve; 3]) -> 
         }
         text
     })
+}
+
+fn cdl(out: &mut impl Write, list: &Cdl) -> io::Result<()> {
+    let Cdl { style, slope, offset, power, saturation } = list;
+    writeln!(out, r#" style="{}">"#, style.word())?;
+    writeln!(out, "    <SOPNode>")?;
+    for (name, values) in [("Slope", slope), ("Offset", offset), ("Power", power)] {
+        writeln!(out, "      <{name}>{}</{name}>", Spaced(values))?;
+    }
+    writeln!(out, "    </SOPNode>")?;
+    writeln!(out, "    <SatNode>\n      <Saturation>{saturation}</Saturation>\n    </SatNode>")
 }
 
 /// One element for all channels, or one for each.

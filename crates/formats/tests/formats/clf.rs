@@ -198,6 +198,53 @@ fn styles_follow_their_formulas() {
     close(range("noClamp", 4.0), 3.0);
 }
 
+/// What OpenColorIO 2.6.0 gives for the same file, not optimised, to seven decimals.
+#[test]
+fn colour_decision_lists_are_those_of_opencolorio() {
+    for (style, expected) in [
+        ("Fwd", [[0.298_421_4, 0.282_810_4, 1.0], [0.0, 0.049_64, 1.0], [0.0, 0.880_076_2, 0.618_334_9]]),
+        (
+            "Rev",
+            [
+                [0.138_229_7, 0.696_229_5, 0.629_753_5],
+                [0.008_853_7, 0.383_11, 0.630_814_9],
+                [0.105_092_2, 1.0, 0.456_006_3],
+            ],
+        ),
+        (
+            "FwdNoClamp",
+            [
+                [0.295_549_8, 0.279_938_8, 1.393_738],
+                [-0.201_426_9, 0.037_258_9, 2.351_011_8],
+                [-0.192_068, 0.880_076_2, 0.618_334_9],
+            ],
+        ),
+        (
+            "RevNoClamp",
+            [
+                [0.138_229_7, 0.696_229_5, 0.629_753_5],
+                [-0.023_128_6, 0.385_791_1, 0.870_656_3],
+                [0.105_092_2, 1.105_421_1, 0.456_006_3],
+            ],
+        ),
+    ] {
+        let file = format!(
+            r#"<ProcessList compCLFversion="3" id="a"><ASC_CDL inBitDepth="32f" outBitDepth="32f" style="{style}"><SOPNode>
+            <Slope>1.2 0.9 1.1</Slope><Offset>0.02 -0.05 0.1</Offset><Power>0.8 1.3 1.1</Power></SOPNode>
+            <SatNode><Saturation>1.4</Saturation></SatNode></ASC_CDL></ProcessList>"#
+        );
+        let process = ClfProcess::parse(&file).unwrap();
+        assert_eq!(process.operations().collect::<Vec<_>>(), ["ASC_CDL"]);
+        for (rgb, expected) in [[0.18, 0.5, 0.9], [-0.1, 0.2, 1.4], [0.0, 1.0, 0.5]].into_iter().zip(expected) {
+            assert_close(process.apply(rgb), expected, 1e-6, rgb);
+        }
+        assert_eq!(ClfProcess::parse(&text(&process)).unwrap(), process);
+    }
+    // Without nodes it clamps.
+    let bare = r#"<ProcessList compCLFversion="3" id="a"><ASC_CDL inBitDepth="32f" outBitDepth="32f"/></ProcessList>"#;
+    assert_eq!(ClfProcess::parse(bare).unwrap().apply([-1.0, 0.5, 2.0]), [0.0, 0.5, 1.0]);
+}
+
 fn refusal(text: &str) -> Error {
     let error = ClfProcess::parse(text).unwrap_err();
     assert!(error.is_text() && error.line().is_some(), "{error}");
@@ -211,6 +258,7 @@ fn bad_operations_are_refused_with_their_line() {
     let array = |element: &str, dim: &str, numbers: &str| {
         format!("<{element} {DEPTHS}>\n<Array dim=\"{dim}\">\n{numbers}\n</Array>\n</{element}>")
     };
+    let cdl = |style: &str, nodes: &str| format!("<ASC_CDL {DEPTHS} style=\"{style}\">\n{nodes}\n</ASC_CDL>");
     let range = |values: &str| format!("<Range {DEPTHS}>\n{values}\n</Range>");
     let cases = [
         (array("Matrix", "3 3", "1 0 0\n0 1 0\n0 0"), 4, "numbers in an element: found 8, expected 9"),
@@ -231,7 +279,15 @@ fn bad_operations_are_refused_with_their_line() {
         (array("LUT3D", "2 2 2 3", "<Deep/>"), 5, "content of an element: found <Deep>, expected text only"),
         (array("LUT3D", "2 2 2 3", "&bomb;"), 5, "reference: found &bomb;"),
         (format!("<Matrix {DEPTHS}/>"), 3, "arrays of an operation: found 0, expected one"),
-        (format!("<ASC_CDL {DEPTHS}/>"), 3, "operation: found <ASC_CDL>, expected Matrix"),
+        (format!("<Sharpen {DEPTHS}/>"), 3, "operation: found <Sharpen>, expected Matrix"),
+        (cdl("Sideways", ""), 3, "style: found \"Sideways\", expected Fwd"),
+        (cdl("Fwd", "<SOPNode><Slope>1 1</Slope></SOPNode>"), 4, "numbers in an element: found 2, expected 3"),
+        (cdl("Fwd", "<SOPNode><Slope>1 -1 1</Slope></SOPNode>"), 3, "expected numbers that are not below 0"),
+        (cdl("Rev", "<SOPNode><Slope>1 0 1</Slope></SOPNode>"), 3, "expected numbers above 0"),
+        (cdl("Fwd", "<SOPNode><Power>0 1 1</Power></SOPNode>"), 3, "values of ASC_CDL: found Power [0.0, 1.0, 1.0]"),
+        (cdl("Rev", "<SatNode><Saturation>0</Saturation></SatNode>"), 3, "expected numbers above 0"),
+        (cdl("Fwd", "<SatNode><Slope>1 1 1</Slope></SatNode>"), 4, "found <Slope> in <SatNode>"),
+        (cdl("Fwd", "<SatNode><Saturation>1</Saturation><Saturation>1</Saturation></SatNode>"), 3, "Saturation again"),
         ("<Matrix inBitDepth=\"9i\" outBitDepth=\"32f\"/>".to_owned(), 3, "inBitDepth: found \"9i\", expected 32f"),
         ("<Matrix outBitDepth=\"32f\"/>".to_owned(), 3, "inBitDepth: found no such attribute of <Matrix>"),
         (format!("<LUT1D {DEPTHS} halfDomain=\"true\"/>"), 3, "halfDomain: found \"true\", expected false"),

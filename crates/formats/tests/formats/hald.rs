@@ -34,6 +34,22 @@ fn red_runs_along_the_first_row() {
     assert_eq!(pixels[2 * 8], [0.0, 0.0, third]);
 }
 
+/// A look in black and white, which programs write in one channel.
+#[test]
+fn grey_gives_equal_entries() {
+    for (colour, channels) in [(png::ColorType::Grayscale, 1), (png::ColorType::GrayscaleAlpha, 2)] {
+        let codes: Vec<u8> = (0..64 * channels).map(|i| (i / channels * 4) as u8).collect();
+        let mut file = Vec::new();
+        let mut encoder = png::Encoder::new(&mut file, 8, 8);
+        encoder.set_color(colour);
+        let mut writer = encoder.write_header().unwrap();
+        writer.write_image_data(&codes).unwrap();
+        writer.finish().unwrap();
+        let entries: Vec<[f32; 3]> = hald::read(file.as_slice()).unwrap().entries().collect();
+        assert_eq!(entries, (0..64).map(|i| [(4 * i) as f32 / 255.0; 3]).collect::<Vec<_>>());
+    }
+}
+
 #[test]
 fn other_sizes_and_damage_are_refused() {
     let found = hald::write(Vec::new(), &Lut3d::identity(33).unwrap(), PngDepth::Eight, [""; 0]).unwrap_err();

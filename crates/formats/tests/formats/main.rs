@@ -5,6 +5,7 @@ mod clf;
 mod codes;
 mod corpus;
 mod cube;
+mod dctl;
 mod direct_json;
 mod hald;
 mod ktx2;

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use onelight_formats::{
-    ClfProcess, CubeFile, OcioView, PngDepth, StripGreen, direct_json, hald, ktx2, lut_3dl, spi3d, strip, vlt,
+    ClfProcess, CubeFile, OcioView, PngDepth, StripGreen, dctl, direct_json, hald, ktx2, lut_3dl, spi3d, strip, vlt,
 };
 use onelight_lut::{DirectForm, Domain, Interpolation, Lut3d, Storage};
 
@@ -44,6 +44,8 @@ pub enum FileFormat {
     Vlt,
     /// The numbers and equations of the direct form.
     Json,
+    /// The direct form as a program for Resolve.
+    Dctl,
 }
 
 words! {
@@ -58,7 +60,8 @@ words! {
         FileFormat::Hald = "hald" "look.CODING.hald.png: a Hald CLUT, 16 bit",
         FileFormat::ThreeDl = "3dl" "look.CODING.3dl: Autodesk's text, 33^3, 12 bit",
         FileFormat::Vlt = "vlt" "look.CODING.vlt: for Panasonic's cameras, 17^3, 12 bit",
-        FileFormat::Json = "json" "look.direct.json: the numbers and equations of the direct form";
+        FileFormat::Json = "json" "look.direct.json: the numbers and equations of the direct form",
+        FileFormat::Dctl = "dctl" "look.INPUT.dctl: the direct form as a program for Resolve, for all light";
 }
 
 /// One file of a baked look.
@@ -118,7 +121,7 @@ impl FileFormat {
     pub fn holds(self, form: Form) -> bool {
         match self {
             Self::Clf => form != Form::Direct,
-            Self::Json => form == Form::Direct,
+            Self::Json | Self::Dctl => form == Form::Direct,
             Self::Cube
             | Self::Spi3d
             | Self::Ktx2
@@ -146,7 +149,7 @@ impl FileFormat {
             Self::Godot | Self::Hald => Some(64),
             Self::ThreeDl => Some(33),
             Self::Vlt => Some(vlt::SIZE),
-            Self::Cube | Self::Clf | Self::Spi3d | Self::Ktx2 | Self::Json => None,
+            Self::Cube | Self::Clf | Self::Spi3d | Self::Ktx2 | Self::Json | Self::Dctl => None,
         }
     }
 
@@ -155,14 +158,20 @@ impl FileFormat {
         match self {
             Self::Unreal | Self::Godot => Some(StripGreen::Down),
             Self::Unity => Some(StripGreen::Up),
-            Self::Cube | Self::Clf | Self::Spi3d | Self::Ktx2 | Self::Hald | Self::ThreeDl | Self::Vlt | Self::Json => {
-                None
-            }
+            Self::Cube
+            | Self::Clf
+            | Self::Spi3d
+            | Self::Ktx2
+            | Self::Hald
+            | Self::ThreeDl
+            | Self::Vlt
+            | Self::Json
+            | Self::Dctl => None,
         }
     }
 
     fn cannot_hold(self, form: Form) -> Error {
-        let other = if self == Self::Json { Form::Direct } else { Form::Plain };
+        let other = if self.holds(Form::Direct) { Form::Direct } else { Form::Plain };
         let (own, form, usual, other) = (self.word(), form.word(), Self::usual(form).word(), other.word());
         ErrorKind::Contradiction(format!("{own} cannot hold the {form} form, expected {usual}, or the {other} form"))
             .into()
@@ -240,6 +249,11 @@ impl Baked {
                 // The file itself says what goes in, and nothing else has its name.
                 return Ok(vec![BakedFile { name: "look.direct.json".to_owned(), bytes }]);
             }
+            FileFormat::Dctl => {
+                let BakedForm::Direct(direct) = self.form() else { return Err(format.cannot_hold(self.form().kind())) };
+                dctl::write(&mut bytes, direct, comments)?;
+                "dctl"
+            }
         };
         Ok(vec![BakedFile { name: self.file_name(kind), bytes }])
     }
@@ -265,6 +279,11 @@ impl Baked {
             // Codes of 12 bits are all that these formats change.
             FileFormat::ThreeDl | FileFormat::Vlt => table(in_twelve_bits(self.coded_table(format)?)?),
             FileFormat::Json => Read::Direct(Box::new(direct_json::read(bytes)?)),
+            // Numbers and equations are those of the form.
+            FileFormat::Dctl => match self.form() {
+                BakedForm::Direct(direct) => Read::Direct(direct.clone()),
+                _ => return Err(format.cannot_hold(self.form().kind())),
+            },
         };
         Ok(AsWritten { baked: self, read })
     }

@@ -6,8 +6,8 @@ use super::keys::ProcessKeys;
 use crate::error::{Error, ErrorKind};
 use crate::films::Films;
 use crate::process::{
-    Approach, ColourSpaces, FilmProcess, FirstProcess, OwnSheet, Printing, Process, StockRef, ToneMapping, ToneProcess,
-    check_exposure, check_lights,
+    Approach, ColourSpaces, FilmProcess, FirstControls, FirstProcess, OwnSheet, Printing, Process, StockRef,
+    ToneMapping, ToneProcess, check_exposure, check_lights,
 };
 use crate::word::Word as _;
 
@@ -121,9 +121,19 @@ impl ProcessKeys {
         let (idle, why) = self.idle_keys();
         // The first approach's controls are named before the film's kind is blamed for them.
         if idle.contains(&"first") {
-            return refuse(
-                "first holds the controls of approach first, expected it left out or approach first".to_owned(),
-            );
+            let (own, usual) = (&self.first, FirstControls::default());
+            let changed = [
+                ("contrast", own.contrast != usual.contrast),
+                ("brightness", own.brightness != usual.brightness),
+                ("temperature", own.temperature != usual.temperature),
+                ("saturation", own.saturation != usual.saturation),
+                ("curve", own.curve != usual.curve),
+            ];
+            let changed: Vec<&str> = changed.into_iter().filter(|(_, changed)| *changed).map(|(key, _)| key).collect();
+            return refuse(format!(
+                "{}: a control of approach first, which changes nothing in another, expected it left out or approach first",
+                changed.join(", ")
+            ));
         }
         if let Some(key) = idle.first() {
             return refuse(format!("{why}: {key} changes nothing, expected it left out"));

@@ -8,6 +8,7 @@ mod damage;
 mod exr;
 mod jpeg_and_radiance;
 mod layers;
+mod metadata;
 mod others;
 mod plain;
 mod refusals;

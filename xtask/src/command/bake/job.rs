@@ -119,7 +119,7 @@ fn formats(arguments: &Arguments, form: Form) -> Result<Vec<FileFormat>> {
     }
     formats.dedup();
     if let Some(format) = formats.iter().find(|format| !format.holds(form)) {
-        let other = if *format == FileFormat::Json { Form::Direct } else { Form::Plain };
+        let other = if format.holds(Form::Direct) { Form::Direct } else { Form::Plain };
         bail!(
             "--format {} cannot hold the {} form, expected {}, or --form {}",
             format.word(),

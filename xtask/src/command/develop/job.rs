@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use indicatif::ProgressBar;
 use onelight::TransferCurve;
 use onelight::spectra::Chromaticity;
 use onelight_picture::{
-    Band, BandSink, Channels, Chromaticities, ColourTag, Description, JpegSettings, Limits, OutputTransfer,
-    PngSettings, TiffSettings, write_jpeg, write_png, write_tiff,
+    Band, BandSink, Channels, Chromaticities, ColourTag, Description, JpegSettings, Limits, Metadata, OutputTransfer,
+    PictureReader, PngSettings, TiffSettings, write_jpeg, write_png, write_tiff,
 };
 use rayon::prelude::*;
 
@@ -18,7 +18,7 @@ use super::exposure::{Exposure, Meter};
 use super::film::Film;
 use super::input::InputSettings;
 use super::light::Light;
-use super::output::Target;
+use super::output::{KeptMetadata, Target};
 use crate::atomic_file::write_atomically;
 use crate::exposure::SceneExposure;
 use crate::look::ChosenLook;
@@ -34,6 +34,7 @@ pub(super) struct Settings {
     /// Which picture comes in, and what its numbers mean.
     pub(super) input: InputSettings,
     pub(super) target: Target,
+    pub(super) metadata: KeptMetadata,
     pub(super) limits: Limits,
 }
 
@@ -75,7 +76,7 @@ pub(super) fn develop_picture(
 ) -> Result<Developed> {
     let input = order.input;
     let Settings { look, film, exposure, target, .. } = settings;
-    let open = || open_selected(input, &settings.limits, &settings.input.selection);
+    let open = || open_input(settings, input);
     let mut picture = open()?;
     let description = picture.description().clone();
     let mut notes = description.notes.clone();
@@ -123,7 +124,10 @@ pub(super) fn develop_picture(
         watch(&description, band);
         film.develop(band, progress);
     };
-    let developed = Description { channels: light.coverage.channels(&description), ..description.clone() };
+    let mut developed = Description { channels: light.coverage.channels(&description), ..description.clone() };
+    if settings.metadata == KeptMetadata::None {
+        developed.metadata = Metadata::default();
+    }
     let busy = write(order, *target, look, &developed, |sink| pass(&mut picture, develop, sink))?;
 
     notes.extend(meter.notes(*exposure, ev));
@@ -139,6 +143,21 @@ pub(super) fn develop_picture(
     let size =
         if target.is_shown() { description.windows.display_size } else { [description.width, description.height] };
     Ok(Developed { size, ev, notes, busy })
+}
+
+/// Opens the picture that comes in.
+///
+/// # Errors
+/// As [`open_selected`], with the option that allows more where a limit refuses it.
+pub(super) fn open_input(settings: &Settings, input: &Path) -> Result<PictureReader<'static>> {
+    open_selected(input, &settings.limits, &settings.input.selection).map_err(|error| {
+        let limit = error.downcast_ref::<onelight_picture::Error>().and_then(onelight_picture::Error::limit_field);
+        match limit {
+            Some("max_pixels") => anyhow!("{error} (--max-pixels allows more)"),
+            Some("max_bytes") => anyhow!("{error} (--memory allows more)"),
+            _ => error,
+        }
+    })
 }
 
 /// Pixels with a channel over `max`.

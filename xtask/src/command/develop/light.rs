@@ -150,7 +150,7 @@ fn to_input_space(
     let usual = if is_xyz { InputWhite::Absolute } else { InputWhite::Relative };
     match input.white.unwrap_or(usual) {
         InputWhite::Relative => {
-            let way_out = "its chromaticities make no colour space, expected --input-space with the one that is meant";
+            let way_out = "the file's colours cannot be used, expected --input-space with the space that is meant";
             scene_colours::to_input_space(own.as_ref(), process).context(way_out)
         }
         InputWhite::Absolute => {

@@ -141,6 +141,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         scene,
         input: arguments.picture.settings(arguments.look.names_input_space()),
         target,
+        metadata: arguments.out.metadata.unwrap_or_default(),
         limits: Limits {
             max_pixels: arguments.picture.max_pixels,
             max_bytes: memory.unwrap_or_default().bytes().max(Limits::default().max_bytes),

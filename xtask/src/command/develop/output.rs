@@ -19,6 +19,19 @@ pub(crate) struct OutputArguments {
     /// How values are rounded to 8 bits [default: pattern]
     #[arg(long)]
     dither: Option<DitherChoice>,
+    /// What is kept of what the picture that comes in says of its camera, time and place [default: keep]
+    #[arg(long)]
+    pub(super) metadata: Option<KeptMetadata>,
+}
+
+/// What is kept of EXIF and of the attributes of an EXR.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(super) enum KeptMetadata {
+    /// What stays true: EXIF in PNG, TIFF and JPEG, the attributes of an EXR in an EXR
+    #[default]
+    Keep,
+    /// Nothing
+    None,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -117,7 +130,7 @@ mod tests {
     fn names_and_options_say_what_is_written() {
         let target = |name: &str, bits, dither| {
             let mut notes = Vec::new();
-            let arguments = OutputArguments { bits, quality: None, dither };
+            let arguments = OutputArguments { bits, quality: None, dither, metadata: None };
             arguments.target(Path::new(name), &mut notes).map(|target| (target, notes.len()))
         };
         let png = Target::Png(PngBits::Eight, Dither::Pattern);

@@ -3,7 +3,7 @@ use std::str::FromStr;
 use onelight_lut::{Lut1d, Lut3d};
 
 use super::element::Element;
-use super::markup::Markup;
+use super::markup::{Markup, Part};
 use crate::error::{Error, TextProblem};
 use crate::text::{RESERVED, number, quoted};
 
@@ -13,12 +13,50 @@ pub(super) enum Content {
     Parameters(Element),
     /// An element with one number, such as `minInValue`.
     Value(Element, f64),
+    /// What a `SOPNode` or `SatNode` has: elements with three numbers, or one thrice.
+    Triples(Vec<(Element, [f64; 3])>),
     /// The rows of a `Matrix`, each with its offset.
     Matrix([[f64; 4]; 3]),
     /// Entries of three channels, in the order of the file.
     Lut1d(Vec<[f32; 3]>),
     /// Nodes a side, and entries in the order of the file.
     Lut3d(usize, Vec<[f32; 3]>),
+}
+
+/// Reads a node of a colour decision list, to its end.
+fn triples(markup: &mut Markup<'_>, node: &Element) -> Result<Content, Error> {
+    let mut found = Vec::new();
+    loop {
+        match markup.next_part()? {
+            (_, Part::End) => return Ok(Content::Triples(found)),
+            (_, Part::Start(child)) if child.name() == "Description" => markup.skip()?,
+            (at, Part::Start(child)) => {
+                let values = match (node.name(), child.name()) {
+                    ("SOPNode", "Slope" | "Offset" | "Power") => {
+                        let values = numbers(markup, &child, 1, |values: [f64; 3]| values)?;
+                        let [values] = all(markup, &child, values)?;
+                        values
+                    }
+                    ("SatNode", "Saturation") => {
+                        let values = numbers(markup, &child, 1, |[value]: [f64; 1]| [value; 3])?;
+                        let [values] = all(markup, &child, values)?;
+                        values
+                    }
+                    _ => {
+                        let [what, expected] = ["content of a node of ASC_CDL", "Slope, Offset, Power or Saturation"];
+                        let found = format!("<{}> in <{}>", quoted(child.name()), quoted(node.name()));
+                        return Err(markup.fail(at, TextProblem::Unexpected { what, found, expected }));
+                    }
+                };
+                // Three are the most that a node has.
+                if found.len() == 3 {
+                    return Err(markup.fail(at, TextProblem::TooMany { what: "elements of a node", max: 3 }));
+                }
+                found.push((child, values));
+            }
+            (at, part) => return Err(markup.unexpected(at, "content of a node of ASC_CDL", &part, "an element")),
+        }
+    }
 }
 
 /// Reads an element of an operation, to its end.
@@ -33,6 +71,7 @@ pub(super) fn content(markup: &mut Markup<'_>, start: &Element, child: Element) 
             markup.skip()?;
             return Ok(Content::Parameters(child));
         }
+        ("ASC_CDL", "SOPNode" | "SatNode") => return triples(markup, &child),
         ("Matrix" | "LUT1D" | "LUT3D", "Array") => child,
         _ => {
             let [what, expected] = ["content of an operation", "what belongs to it"];

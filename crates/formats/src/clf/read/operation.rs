@@ -1,7 +1,7 @@
 use super::content::{Content, content};
 use super::element::Element;
 use super::markup::{Markup, Part};
-use super::parameters::{exponent, log, range};
+use super::parameters::{cdl, exponent, log, range};
 use crate::clf::op::{Op, Range};
 use crate::error::{Error, TextProblem};
 use crate::node_order::{node_at, place_of};
@@ -31,6 +31,7 @@ pub(super) fn read(markup: &mut Markup<'_>, start: &Element) -> Result<Op, Error
         "Range" => range(start, &contents),
         "Log" => log(start, &contents),
         "Exponent" => exponent(start, &contents),
+        "ASC_CDL" => cdl(start, &contents),
         _ => array(start, contents),
     };
     let depths = || Ok([code_of_one(start, "inBitDepth")?, code_of_one(start, "outBitDepth")?]);
@@ -39,8 +40,8 @@ pub(super) fn read(markup: &mut Markup<'_>, start: &Element) -> Result<Op, Error
 
 /// Refuses operations that are not read before their content is.
 fn check(start: &Element) -> Result<(), TextProblem> {
-    if !matches!(start.name(), "Matrix" | "Range" | "Log" | "Exponent" | "LUT1D" | "LUT3D") {
-        let [what, expected] = ["operation", "Matrix, Range, Log, Exponent, LUT1D or LUT3D"];
+    if !matches!(start.name(), "Matrix" | "Range" | "Log" | "Exponent" | "ASC_CDL" | "LUT1D" | "LUT3D") {
+        let [what, expected] = ["operation", "Matrix, Range, Log, Exponent, ASC_CDL, LUT1D or LUT3D"];
         return Err(TextProblem::Unexpected { what, found: format!("<{}>", quoted(start.name())), expected });
     }
     for depth in ["inBitDepth", "outBitDepth"] {
@@ -90,7 +91,7 @@ fn normalised(op: Op, [input, output]: [f64; 2]) -> Result<Op, TextProblem> {
             Op::Lut3d(Lut3d::new(lut.size(), entries).map_err(TextProblem::Table)?, interpolation)
         }
         // Curves are between numbers of which 1 is the largest code already.
-        op @ (Op::Log { .. } | Op::Exponent { .. }) => op,
+        op @ (Op::Log { .. } | Op::Exponent { .. } | Op::Cdl(_)) => op,
     })
 }
 

@@ -1,5 +1,6 @@
 use super::content::Content;
 use super::element::Element;
+use crate::clf::cdl::{Cdl, CdlStyle};
 use crate::clf::op::{Beyond, Direction, ExponentStyle, LogCurve, Op, Power, Range, Shape, Toe};
 use crate::error::TextProblem;
 use onelight_lut::PowerCoding;
@@ -103,6 +104,49 @@ pub(super) fn exponent(start: &Element, contents: &[Content]) -> Result<Op, Text
     let style = ExponentStyle::from_word(start.required("style", styles)?).ok_or_else(|| start.bad("style", styles))?;
     let channels = per_channel(contents, "ExponentParams", |element| power(element, style.shape))?;
     Ok(Op::Exponent { style, channels })
+}
+
+pub(super) fn cdl(start: &Element, contents: &[Content]) -> Result<Op, TextProblem> {
+    let styles = "Fwd, Rev, FwdNoClamp or RevNoClamp";
+    let style = match start.get("style") {
+        None => CdlStyle::Forward,
+        Some(word) => CdlStyle::from_word(word).ok_or_else(|| start.bad("style", styles))?,
+    };
+    let mut list = Cdl { style, ..Cdl::NEUTRAL };
+    let mut seen = Vec::new();
+    for (element, values) in contents.iter().flat_map(|content| match content {
+        Content::Triples(triples) => triples.as_slice(),
+        _ => &[],
+    }) {
+        let bad = |found: String, expected| TextProblem::Unexpected { what: "values of ASC_CDL", found, expected };
+        if seen.contains(&element.name()) {
+            return Err(bad(format!("{} again", element.name()), "each once"));
+        }
+        seen.push(element.name());
+        let least = |strict: bool| if strict { "numbers above 0" } else { "numbers that are not below 0" };
+        let must = match element.name() {
+            "Offset" => {
+                list.offset = *values;
+                continue;
+            }
+            "Slope" => {
+                list.slope = *values;
+                style.is_reverse()
+            }
+            "Power" => {
+                list.power = *values;
+                true
+            }
+            _ => {
+                list.saturation = values[0];
+                style.is_reverse()
+            }
+        };
+        if values.iter().any(|v| *v < 0.0 || (must && *v <= 0.0)) {
+            return Err(bad(format!("{} {values:?}", element.name()), least(must)));
+        }
+    }
+    Ok(Op::Cdl(list))
 }
 
 fn power(element: &Element, shape: Shape) -> Result<Power, TextProblem> {

@@ -24,7 +24,7 @@ impl Recipe {
     /// # Errors
     /// Those of compiling the look.
     pub(super) fn new(settings: &Settings) -> Result<Self> {
-        let Settings { look, film, exposure, scene, input, target, limits: _ } = settings;
+        let Settings { look, film, exposure, scene, input, target, metadata, limits: _ } = settings;
         let mut text = String::new();
         let mut line = |key: &str, value: &dyn std::fmt::Display| {
             let _ = writeln!(text, "{key}: {value}");
@@ -36,6 +36,7 @@ impl Recipe {
         line("scene", &scene.in_numbers());
         line("input", &format_args!("{input:?}"));
         line("target", &format_args!("{target:?}"));
+        line("metadata", &format_args!("{metadata:?}"));
         // Data sheets of one's own count by their digests, wherever they are.
         line("look", &look.text_anywhere());
         Ok(Self(text))

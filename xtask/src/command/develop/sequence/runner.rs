@@ -11,14 +11,13 @@ use std::thread;
 use anyhow::Result;
 use indicatif::ProgressBar;
 
-use super::super::job::{Order, Settings, develop_picture};
+use super::super::job::{Order, Settings, develop_picture, open_input};
 use super::super::paths::same_file;
 use super::budget::{Budget, needed};
 use super::digest::{Recipe, is_done};
 use super::outcome::Outcome;
 use super::plan::Frame;
 use super::progress::JobProgress;
-use crate::picture_file::open_selected;
 
 /// Develops `frames`, as many at once as `budget` and `at_once` allow; what became of each, in their order. `done` hears
 /// of each as soon as it is known.
@@ -69,7 +68,7 @@ fn develop_frame(settings: &Settings, recipe: &Recipe, frame: &Frame, budget: &B
         if digest.as_ref().is_ok_and(|digest| is_done(&frame.output, digest)) {
             return Ok(Outcome::AlreadyDone);
         }
-        let bytes = needed(&open_selected(&frame.input, &settings.limits, &settings.input.selection)?, settings.target);
+        let bytes = needed(&open_input(settings, &frame.input)?, settings.target);
         let digest = digest.map_err(|error| anyhow::anyhow!("{}: cannot be read: {error}", frame.input.display()))?;
         if same_file(&frame.input, &frame.output) {
             anyhow::bail!("{}: the output would replace the picture it is made from", frame.output.display());
