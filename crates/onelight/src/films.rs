@@ -113,7 +113,7 @@ impl Films {
                     set(place, stock);
                 }
             }
-            Process::Tone(_) => {}
+            Process::Print(_) | Process::Tone(_) => {}
         }
         process
     }
@@ -129,7 +129,7 @@ fn one_image(camera: &Stock, print: &Stock) -> String {
     format!("{camera} is {of_camera} and {print} {of_print}, expected both alike")
 }
 
-fn built_in(film: &StockRef) -> Result<Stock, Error> {
+pub(crate) fn built_in(film: &StockRef) -> Result<Stock, Error> {
     match film {
         StockRef::BuiltIn(id) => stock(id),
         StockRef::Own(sheet) => refuse(format!(

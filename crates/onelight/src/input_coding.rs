@@ -2,6 +2,7 @@
 
 use onelight_spectra::{RgbSpace, SceneCurve, TransferCurve};
 
+use crate::cineon;
 use crate::word::Word;
 
 /// How the numbers of a picture become scene-linear light: by the curve of a display or by a camera's, which has primaries of its own.
@@ -19,6 +20,8 @@ pub enum InputCoding {
     Display(TransferCurve),
     /// A curve with primaries of its own: those of cameras and grading programs, PQ, HLG and video.
     Scene(SceneCurve),
+    /// Codes of a scanned negative, for a print without a camera film ([`PrintAlone`](crate::PrintAlone)).
+    Cineon,
 }
 
 impl Word for InputCoding {
@@ -44,6 +47,7 @@ impl Word for InputCoding {
         (Self::Scene(SceneCurve::Hlg), "hlg", "HLG (BT.2020), scene 1.0 at 75 %"),
         (Self::Scene(SceneCurve::Pq), "pq", "PQ (BT.2020), scene 1.0 at 203 cd/m^2"),
         (Self::Scene(SceneCurve::Rec709Display), "rec709-display", "video as a display of gamma 2.4 shows it (BT.709)"),
+        (Self::Cineon, "cineon", "Cineon codes of a scanned negative, 0 to 1023: with --camera none"),
     ];
 }
 
@@ -54,6 +58,7 @@ impl InputCoding {
         match self {
             Self::Display(curve) => curve.decode(coded),
             Self::Scene(curve) => curve.decode(coded),
+            Self::Cineon => cineon::light(coded),
         }
     }
 
@@ -61,7 +66,7 @@ impl InputCoding {
     #[must_use]
     pub fn space(self) -> Option<RgbSpace> {
         match self {
-            Self::Display(_) => None,
+            Self::Display(_) | Self::Cineon => None,
             Self::Scene(curve) => Some(curve.space()),
         }
     }
@@ -71,6 +76,7 @@ impl InputCoding {
     pub fn name(self) -> String {
         match self {
             Self::Display(_) => self.word().to_owned(),
+            Self::Cineon => "Cineon codes".to_owned(),
             Self::Scene(curve) => format!("{} in {}", curve.name(), curve.space_name()),
         }
     }

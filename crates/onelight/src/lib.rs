@@ -104,6 +104,7 @@ mod about;
 mod bake;
 pub mod baked;
 pub mod certify;
+mod cineon;
 mod direct;
 mod error;
 mod films;
@@ -125,7 +126,7 @@ pub use error::Error;
 pub use films::Films;
 pub use gamut_effect::GamutEffect;
 pub use input_coding::InputCoding;
-pub use look::{FirstApproach, Look, PostColour, Texels, ToneCurve, ToneMapped};
+pub use look::{FirstApproach, Look, PostColour, PrintedScan, Texels, ToneCurve, ToneMapped};
 pub use onelight_film as film;
 pub use onelight_film::{
     DyeModel, Image, InterImage, Matching, PrintCurves, SheetText, Stock, StockKind, Tail, WideGamut,
@@ -142,7 +143,8 @@ pub use onelight_spectra as spectra;
 pub use onelight_spectra::{DisplayLinear, Reconstruction, TransferCurve};
 pub use process::{
     Approach, ColourSpaces, DEFAULT_CAMERA, DEFAULT_PRINT, DEFAULT_SILVER_PRINT, FilmProcess, FirstControls,
-    FirstProcess, InterImageChoice, OwnSheet, Printing, Process, StockRef, ToneMapping, ToneProcess, usual_print,
+    FirstProcess, InterImageChoice, OwnSheet, PrintAlone, Printing, Process, StockRef, ToneMapping, ToneProcess,
+    usual_print,
 };
 pub use process_keys::{FormatVersion, ProcessKeys, SheetKeys};
 pub use reference::{PrintStage, Reference, Stages};

@@ -354,7 +354,7 @@ impl Reference {
 }
 
 /// The light that a look's picture is seen by: paper is looked at in a viewing booth, and nothing projects it.
-fn viewed_by(projector: Projector, shown: &Stock) -> Result<Projector, Error> {
+pub(crate) fn viewed_by(projector: Projector, shown: &Stock) -> Result<Projector, Error> {
     match projector {
         Projector::Display if shown.kind().is_reflective() => Ok(Projector::ViewingBooth),
         Projector::Theatre | Projector::TheatreUnadapted | Projector::Xenon if shown.kind().is_reflective() => {
@@ -452,6 +452,7 @@ impl Process {
     pub fn film(&self) -> Result<&FilmProcess, Error> {
         match self {
             Self::Film(film) => Ok(film),
+            Self::Print(_) => Err(no_camera()),
             Self::First(_) | Self::Tone(_) => Err(no_film(self.approach())),
         }
     }
@@ -474,6 +475,11 @@ fn check_silver(process: &FilmProcess, films: &Films) -> Result<(), Error> {
         }
         _ => Ok(()),
     }
+}
+
+/// The sentence for what needs a film in the camera.
+pub(crate) fn no_camera() -> Error {
+    ErrorKind::Contradiction("camera is none: there is no camera film, expected a film in the camera".to_owned()).into()
 }
 
 /// The sentence for what needs the second approach.

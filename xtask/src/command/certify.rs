@@ -1,6 +1,6 @@
 use std::fmt::Write as _;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use clap::Args;
 use onelight::baked::{Form, Recipe, ShaperChoice};
 use onelight::certify::{Certifier, MeanAndMax, in_words, to_six_stops};
@@ -74,6 +74,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     }
     let mut clock = Clock::default();
     let looks = looks(arguments)?;
+    if looks.iter().any(|look| matches!(look.process, Process::Print(_))) {
+        bail!(
+            "certify compares the forms of camera films, expected a film in the camera (bake --camera none certifies what it bakes)"
+        );
+    }
     let law = SamplingLaw { count: arguments.colours, ..SamplingLaw::default() };
     let progress = bar("certifying", (looks.len() * forms().len()) as u64);
     let mut text = format!(

@@ -82,3 +82,48 @@ fn a_look_s_exposure_and_white_are_developed() {
     assert!(refused(folder, &["bake", "--quick", "--scene-white", "200"]).contains("1667 to 25000 K"));
     assert!(refused(folder, &["bake", "--quick", "--ev", "40"]).contains("ev: found 40"));
 }
+
+/// A print of Cineon codes: the table that `bake` writes and what `develop` makes of a scan are the same, and the LAD's grey is at the aim.
+#[test]
+fn a_scan_is_printed_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let said = done(folder, &["bake", "--camera", "none", "--input-coding", "cineon", "--quick", "--out", "look"]);
+    assert!(said.contains("look.cineon.cube") && said.contains("grey of the digital LAD at 445"), "{said}");
+    let cube = fs::read_to_string(folder.join("look/look.cineon.cube")).unwrap();
+    assert!(cube.contains("LUT_3D_SIZE 65") && !cube.contains("LUT_1D_SIZE"), "{}", &cube[..200]);
+    let look = fs::read_to_string(folder.join("look/look.toml")).unwrap();
+    assert!(look.contains("camera = \"none\"") && look.contains("print = \"kodak-2383\""), "{look}");
+    flat(folder, "lad.exr", [445.0 / 1023.0; 3]);
+    for form in ["reference", "plain"] {
+        let said = done(folder, &["develop", "lad.exr", "out.exr", "--look", "look/look.toml", "--form", form]);
+        assert!(said.contains("read as Cineon codes, full range"), "{said}");
+        let grey = first_pixel(folder, "out.exr");
+        assert!(grey.iter().all(|v| (v - 0.199_526).abs() < 1e-3), "{form}: {grey:?}");
+    }
+    for (arguments, expected) in [
+        (&["bake", "--camera", "none", "--overexposure", "1"][..], "overexposure changes nothing"),
+        (&["bake", "--camera", "none", "--interimage", "none"], "interimage changes nothing"),
+        (&["bake", "--camera", "none", "--filters", "70,99"], "filters changes nothing"),
+        (&["bake", "--camera", "none", "--scene-white", "3200"], "scene_white changes nothing"),
+        (&["bake", "--camera", "none", "--ev", "1"], "ev changes nothing"),
+        (&["bake", "--camera", "none", "--input-space", "p3"], "input_space changes nothing"),
+        (&["bake", "--camera", "none", "--shaper", "logc4"], "expected shaper cineon instead of logc4"),
+        (&["bake", "--camera", "none", "--form", "structured"], "expected form plain"),
+        (&["bake", "--camera", "none", "--print", "none"], "such as kodak-2383"),
+        (&["bake", "--camera", "none", "--print", "fuji-velvia-50"], "expected a print film"),
+        (&["bake", "--camera", "none", "--approach", "first"], "expected approach second"),
+        (&["bake", "--camera", "none", "--for", "ffmpeg"], "expected --for resolve"),
+        (&["bake", "--shaper", "cineon"], "expected camera none"),
+        (&["develop", "lad.exr", "a.png", "--camera", "none", "--ev", "1"], "--points changes the print"),
+        (
+            &["develop", "lad.exr", "a.png", "--camera", "none", "--input-coding", "logc3"],
+            "expected --input-coding cineon",
+        ),
+        (&["develop", "lad.exr", "a.png", "--input-coding", "cineon"], "expected --camera none with it"),
+        (&["certify", "--camera", "none"], "expected a film in the camera"),
+    ] {
+        let sentence = refused(folder, arguments);
+        assert!(sentence.contains(expected), "{arguments:?}: {sentence}");
+    }
+}

@@ -4,6 +4,7 @@ use nalgebra::Matrix3;
 use onelight_lut::Lut3d;
 use onelight_spectra::{Chromaticity, RgbSpace, SceneCurve};
 
+use crate::cineon;
 use crate::error::Error;
 use crate::look::Look;
 use crate::process::ColourSpaces;
@@ -37,6 +38,8 @@ enum CodingCurve {
     Scene(SceneCurve),
     /// log2 of light over mid grey, between two stops.
     Stops(f64, f64),
+    /// Codes of a scanned negative.
+    Cineon,
 }
 
 /// The range of Bevy's tone-mapping tables, in stops about mid grey.
@@ -56,6 +59,17 @@ impl Coordinate {
             &spaces.input_space.space(),
             spaces,
         )
+    }
+
+    /// Codes of a scanned negative, which have no primaries.
+    pub(super) fn cineon(spaces: &ColourSpaces) -> Result<Self, Error> {
+        let primaries = "printing density, no";
+        Self::new(["cineon", "Cineon", primaries], CodingCurve::Cineon, &spaces.input_space.space(), spaces)
+    }
+
+    /// Whether coordinates are codes of a scanned negative and not of a scene's light.
+    pub(super) fn is_scan(&self) -> bool {
+        matches!(self.curve, CodingCurve::Cineon)
     }
 
     fn new(
@@ -80,6 +94,7 @@ impl Coordinate {
         let linear = coordinates.map(|v| match self.curve {
             CodingCurve::Scene(curve) => curve.decode(v),
             CodingCurve::Stops(low, high) => MID_GREY * (low + v * (high - low)).exp2(),
+            CodingCurve::Cineon => cineon::light(v),
         });
         multiply(&self.back, linear)
     }
@@ -108,6 +123,7 @@ impl Coordinate {
         multiply(&self.there, linear).map(|v| match self.curve {
             CodingCurve::Scene(curve) => curve.encode(v),
             CodingCurve::Stops(low, high) => ((v.max(1e-12) / MID_GREY).log2() - low) / (high - low),
+            CodingCurve::Cineon => cineon::code(v),
         })
     }
 
@@ -150,6 +166,7 @@ mod tests {
         let mut all: Vec<Coordinate> =
             SceneCurve::ALL.iter().map(|curve| Coordinate::of_curve("", *curve, &spaces).unwrap()).collect();
         all.push(Coordinate::bevy(&spaces).unwrap());
+        all.push(Coordinate::cineon(&spaces).unwrap());
         for coordinate in all {
             for rgb in [[0.18; 3], [0.5, 0.2, 0.1], [0.02, 0.05, 0.04]] {
                 let back = coordinate.decode(coordinate.encode(rgb));

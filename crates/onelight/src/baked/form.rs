@@ -10,11 +10,12 @@ use super::shaper_fit::{Fitted, fitted_to};
 use crate::about::About;
 use crate::certify::{Certified, Certifier, CertifySettings, Gamut};
 use crate::direct::DirectSettings;
-use crate::error::Error;
+use crate::error::{Error, ErrorKind};
 use crate::look::Look;
 use crate::process::ColourSpaces;
 use crate::scene::{MID_GREY, finite};
 use crate::structured::{Entries, StructuredSettings};
+use crate::word::Word as _;
 
 /// A look in a form that is fast to apply, made by [`Look::baked`]. Entries are those that were stored: what is measured is
 /// what is written.
@@ -112,6 +113,7 @@ impl Look {
 
 impl Baked {
     pub(super) fn new(look: &Look, recipe: &Recipe, scene: Option<&[[f64; 3]]>) -> Result<Self, Error> {
+        check_input(look, recipe)?;
         let form = match recipe.form {
             Form::Plain => match recipe.shaper.coordinate(look.spaces())? {
                 Some(coordinate) => {
@@ -283,6 +285,9 @@ impl Baked {
                 let stops = (max / MID_GREY).log2();
                 format!("plain {size}^3, log2(u + {offset:.5}), scene light 0 to {max:.2} ({stops:+.1} stops)")
             }
+            BakedForm::Coded { table, coordinate } if coordinate.is_scan() => {
+                format!("plain {}^3, takes Cineon codes 0 to 1023", table.size())
+            }
             BakedForm::Coded { table, coordinate } => {
                 let (size, name, max) = (table.size(), coordinate.name(), coordinate.max());
                 format!("plain {size}^3, takes {name}, scene light to {max:.2}")
@@ -312,6 +317,27 @@ impl BakedForm {
             Self::Direct(_) => Form::Direct,
         }
     }
+}
+
+/// Whether a table takes what the look does: light, or codes of a scanned negative.
+fn check_input(look: &Look, recipe: &Recipe) -> Result<(), Error> {
+    let is_print = matches!(look, Look::Print(_));
+    let sentence = match (recipe.form, recipe.shaper == ShaperChoice::Cineon) {
+        (Form::Plain, is_cineon) if is_cineon == is_print => return Ok(()),
+        (Form::Plain, true) => {
+            "shaper cineon takes codes of a scanned negative, which a camera film is not exposed by, expected camera none".to_owned()
+        }
+        (Form::Plain, false) => {
+            let found = recipe.shaper.word();
+            format!("camera is none: a print takes codes of a scanned negative, expected shaper cineon instead of {found}")
+        }
+        _ if !is_print => return Ok(()),
+        (form, _) => {
+            let found = form.word();
+            format!("camera is none: the {found} form is made of a camera film's curves, expected form plain")
+        }
+    };
+    Err(ErrorKind::Contradiction(sentence).into())
 }
 
 fn plain(look: &Look, recipe: &Recipe, scene: Option<&[[f64; 3]]>) -> Result<PlainLut, Error> {

@@ -1,5 +1,6 @@
 //! What the files of a baked look say of themselves: comments, titles, descriptors, names.
 
+use super::coordinate::Coordinate;
 use super::form::{Baked, BakedForm};
 use crate::process::ColourSpaces;
 use crate::word::{Word as _, WorkingSpace};
@@ -29,17 +30,32 @@ impl Baked {
     /// What goes in, with its primaries, the place of an 18 % grey and where the range ends.
     #[must_use]
     pub fn input_in_words(&self) -> String {
+        if self.coordinate().is_some_and(Coordinate::is_scan) {
+            return "Cineon codes of printing density, D-min at 95, grey of the digital LAD at 445, 0 to 1023 (full range)".to_owned();
+        }
+        let balance = self.balance_in_words();
         let end = self.max().map_or("any scene light".to_owned(), |max| format!("scene light to {max:.2}"));
         match self.coordinate() {
             Some(coordinate) => {
                 let (name, primaries, grey) = (coordinate.name(), coordinate.primaries(), coordinate.grey());
-                format!("{name}, {primaries} primaries, 18 % grey at {grey:.4}, codes 0 to 1 (full range), {end}")
+                format!(
+                    "{name}, {primaries} primaries, 18 % grey at {grey:.4}, codes 0 to 1 (full range), {end}{balance}"
+                )
             }
             None => {
                 let primaries = self.spaces().input_space.word();
-                format!("scene-linear light, {primaries} primaries, 18 % grey at 0.18, {end}")
+                format!("scene-linear light, {primaries} primaries, 18 % grey at 0.18, {end}{balance}")
             }
         }
+    }
+
+    /// What is made of the light before the film, where something is.
+    fn balance_in_words(&self) -> String {
+        let ColourSpaces { ev, scene_white, .. } = self.spaces();
+        let white = scene_white
+            .map(|white| format!(", light of {} K and a tint of {} made neutral", white.kelvin(), white.tint()));
+        let exposed = (*ev != 0.0).then(|| format!(", exposed by {ev:+} stops"));
+        exposed.unwrap_or_default() + &white.unwrap_or_default()
     }
 
     /// What comes out: primaries and coding of the display.

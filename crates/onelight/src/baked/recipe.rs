@@ -75,6 +75,8 @@ pub enum ShaperChoice {
     Hlg,
     /// It takes PQ (BT.2020), scene 1.0 at 203 cd/m^2.
     Pq,
+    /// It takes Cineon codes of a scanned negative, 0 to 1023: the only one for a print without a camera film.
+    Cineon,
     /// It takes sRGB-coded colour: nothing brighter than white.
     Srgb,
     /// It takes video as a studio display shows it, a power of 2.4 (BT.709 primaries): nothing brighter than white.
@@ -128,6 +130,7 @@ words! {
         ShaperChoice::Dlog = "dlog" "It takes DJI D-Log (D-Gamut)",
         ShaperChoice::Hlg = "hlg" "It takes HLG (BT.2020), scene 1.0 at 75 %",
         ShaperChoice::Pq = "pq" "It takes PQ (BT.2020), scene 1.0 at 203 cd/m^2",
+        ShaperChoice::Cineon = "cineon" "It takes Cineon codes of a scanned negative, 0 to 1023: with --camera none",
         ShaperChoice::Srgb = "srgb" "It takes sRGB-coded colour: nothing brighter than white",
         ShaperChoice::Rec709Display = "rec709-display" "It takes video as a display of gamma 2.4 shows it: nothing brighter than white",
         ShaperChoice::Bevy = "bevy" "It takes log2(x / 0.18) from -11 to +12: Bevy's tone-mapping tables, with linear output";
@@ -146,6 +149,7 @@ impl ShaperChoice {
         let curve = match self {
             Self::Log2 | Self::Gotanda => return Ok(None),
             Self::Bevy => return Coordinate::bevy(spaces).map(Some),
+            Self::Cineon => return Coordinate::cineon(spaces).map(Some),
             Self::Acescct => SceneCurve::AcesCct,
             Self::Logc4 => SceneCurve::LogC4,
             Self::Slog3 => SceneCurve::SLog3,

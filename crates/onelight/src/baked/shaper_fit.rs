@@ -106,7 +106,7 @@ impl<'a> Trial<'a> {
     fn new(look: &'a Look, colours: &[[f64; 3]]) -> Result<Self, Error> {
         let baking = match look {
             Look::Film(film) => Some(film.direct(&DirectSettings { nodes: Nodes::Grid { step_nm: 10 } })?),
-            Look::First(_) | Look::Tone(_) => None,
+            Look::Print(_) | Look::First(_) | Look::Tone(_) => None,
         };
         let difference = look.difference()?;
         let pairs = colours.par_iter().map(|&rgb| {

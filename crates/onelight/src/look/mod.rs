@@ -2,6 +2,7 @@
 
 mod first;
 mod post;
+mod printed_scan;
 mod tone_curve;
 mod tone_mapped;
 
@@ -11,6 +12,7 @@ use rayon::prelude::*;
 
 pub use first::FirstApproach;
 pub use post::PostColour;
+pub use printed_scan::PrintedScan;
 pub use tone_curve::{Texels, ToneCurve};
 pub use tone_mapped::ToneMapped;
 
@@ -19,7 +21,7 @@ use crate::error::Error;
 use crate::films::Films;
 use crate::process::{Approach, ColourSpaces, Process};
 use crate::process_keys::no_films;
-use crate::reference::{Reference, no_film};
+use crate::reference::{Reference, no_camera, no_film};
 
 /// A [`Process`] made to work, whatever its approach: scene-linear RGB in, display RGB out.
 ///
@@ -36,6 +38,8 @@ use crate::reference::{Reference, no_film};
 pub enum Look {
     /// The simulation of film: the second approach.
     Film(Reference),
+    /// A print of a scanned negative; its light is that of Cineon codes ([`PrintedScan::develop_linear`]).
+    Print(PrintedScan),
     /// The first approach: tone curves and matrices.
     First(FirstApproach),
     /// A tone mapping without film.
@@ -61,6 +65,7 @@ impl Look {
     pub fn develop_linear(&self, rgb: [f64; 3]) -> DisplayLinear {
         match self {
             Self::Film(film) => film.develop_linear(rgb),
+            Self::Print(print) => print.develop_linear(rgb),
             Self::First(first) => first.develop_linear(rgb),
             Self::Tone(tone) => tone.develop_linear(rgb),
         }
@@ -87,6 +92,7 @@ impl Look {
     pub(crate) fn about(&self) -> &About {
         match self {
             Self::Film(film) => film.about(),
+            Self::Print(print) => print.about(),
             Self::First(first) => first.about(),
             Self::Tone(tone) => tone.about(),
         }
@@ -125,6 +131,7 @@ impl Look {
     pub fn film(&self) -> Result<&Reference, Error> {
         match self {
             Self::Film(film) => Ok(film),
+            Self::Print(_) => Err(no_camera()),
             Self::First(_) => Err(no_film(Approach::First)),
             Self::Tone(tone) => Err(no_film(tone.mapping().approach())),
         }
@@ -139,6 +146,7 @@ impl Process {
     pub fn look(&self) -> Result<Look, Error> {
         match self {
             Self::Film(film) => film.compile().map(Look::Film),
+            Self::Print(print) => PrintedScan::new(print).map(Look::Print),
             Self::First(first) => FirstApproach::new(first, &Films::of_first(first)?).map(Look::First),
             Self::Tone(tone) => ToneMapped::new(tone).map(Look::Tone),
         }
@@ -151,6 +159,7 @@ impl Process {
     pub fn look_with(&self, films: &Films) -> Result<Look, Error> {
         match self {
             Self::Film(film) => film.compile_with(films).map(Look::Film),
+            Self::Print(_) => Err(no_camera()),
             Self::First(first) => FirstApproach::new(first, films).map(Look::First),
             Self::Tone(tone) => Err(no_films(tone.mapping.approach())),
         }

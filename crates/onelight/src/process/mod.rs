@@ -3,6 +3,7 @@
 mod approach;
 mod film;
 mod first;
+mod print_alone;
 mod spaces;
 mod stock_ref;
 mod tone;
@@ -13,9 +14,10 @@ pub use approach::Approach;
 pub use film::{FilmProcess, InterImageChoice, Printing};
 pub(crate) use film::{check_exposure, check_lights};
 pub use first::{FirstControls, FirstProcess};
+pub use print_alone::PrintAlone;
 pub use spaces::ColourSpaces;
-pub(crate) use stock_ref::default_print;
 pub use stock_ref::{DEFAULT_CAMERA, DEFAULT_PRINT, DEFAULT_SILVER_PRINT, OwnSheet, StockRef, usual_print};
+pub(crate) use stock_ref::{NO_CAMERA, default_print};
 pub use tone::{ToneMapping, ToneProcess};
 
 use crate::error::Error;
@@ -34,6 +36,8 @@ use crate::word::Word as _;
 pub enum Process {
     /// The simulation of film: spectrum, exposure, dye, print, projection.
     Film(FilmProcess),
+    /// A print of a scanned negative: the simulation without a camera film.
+    Print(PrintAlone),
     /// The talk's first approach: tone curves and matrices.
     First(FirstProcess),
     /// A tone mapping without film, to compare with.
@@ -50,6 +54,12 @@ impl Default for Process {
 impl From<FilmProcess> for Process {
     fn from(film: FilmProcess) -> Self {
         Self::Film(film)
+    }
+}
+
+impl From<PrintAlone> for Process {
+    fn from(print: PrintAlone) -> Self {
+        Self::Print(print)
     }
 }
 
@@ -74,7 +84,8 @@ impl Process {
         FilmProcess::for_camera(camera).map(Self::Film)
     }
 
-    /// A short name made of the ids: `kodak-5207_kodak-2383`, `fuji-velvia-50`, `kodak-5207_kodak-2383_first`, `reinhard`.
+    /// A short name made of the ids: `kodak-5207_kodak-2383`, `fuji-velvia-50`, `kodak-5207_kodak-2383_first`, `cineon_kodak-2383`,
+    /// `reinhard`.
     #[must_use]
     pub fn name(&self) -> String {
         let films = |camera: &StockRef| match self.print() {
@@ -83,6 +94,7 @@ impl Process {
         };
         match self {
             Self::Film(film) => films(&film.camera),
+            Self::Print(print) => format!("cineon_{}", print.film),
             Self::First(first) => format!("{}_first", films(&first.camera)),
             Self::Tone(tone) => tone.mapping.approach().word().to_owned(),
         }
@@ -92,19 +104,19 @@ impl Process {
     #[must_use]
     pub fn approach(&self) -> Approach {
         match self {
-            Self::Film(_) => Approach::Second,
+            Self::Film(_) | Self::Print(_) => Approach::Second,
             Self::First(_) => Approach::First,
             Self::Tone(tone) => tone.mapping.approach(),
         }
     }
 
-    /// The film in the camera; tone mappings have none.
+    /// The film in the camera; tone mappings and prints of scans have none.
     #[must_use]
     pub fn camera(&self) -> Option<&StockRef> {
         match self {
             Self::Film(film) => Some(&film.camera),
             Self::First(first) => Some(&first.camera),
-            Self::Tone(_) => None,
+            Self::Print(_) | Self::Tone(_) => None,
         }
     }
 
@@ -113,6 +125,7 @@ impl Process {
     pub fn print(&self) -> Option<&StockRef> {
         match self {
             Self::Film(film) => film.print.as_ref().map(|print| &print.film),
+            Self::Print(print) => Some(&print.film),
             Self::First(first) => first.print.as_ref(),
             Self::Tone(_) => None,
         }
@@ -123,6 +136,7 @@ impl Process {
     pub fn aim(&self) -> Aim {
         match self {
             Self::Film(film) => film.aim,
+            Self::Print(print) => print.aim,
             Self::First(_) | Self::Tone(_) => Aim::Neutral,
         }
     }
@@ -132,6 +146,7 @@ impl Process {
     pub fn spaces(&self) -> &ColourSpaces {
         match self {
             Self::Film(film) => &film.spaces,
+            Self::Print(print) => &print.spaces,
             Self::First(first) => &first.spaces,
             Self::Tone(tone) => &tone.spaces,
         }
@@ -141,6 +156,7 @@ impl Process {
     pub fn spaces_mut(&mut self) -> &mut ColourSpaces {
         match self {
             Self::Film(film) => &mut film.spaces,
+            Self::Print(print) => &mut print.spaces,
             Self::First(first) => &mut first.spaces,
             Self::Tone(tone) => &mut tone.spaces,
         }

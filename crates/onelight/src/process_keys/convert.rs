@@ -4,10 +4,10 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
 use super::keys::ProcessKeys;
 use crate::error::{Error, ErrorKind};
-use crate::films::Films;
+use crate::films::{Films, built_in};
 use crate::process::{
-    Approach, ColourSpaces, FilmProcess, FirstControls, FirstProcess, OwnSheet, Printing, Process, StockRef,
-    ToneMapping, ToneProcess, check_exposure, check_lights,
+    Approach, ColourSpaces, FilmProcess, FirstControls, FirstProcess, NO_CAMERA, OwnSheet, PrintAlone, Printing,
+    Process, StockRef, ToneMapping, ToneProcess, check_exposure, check_lights,
 };
 use crate::word::Word as _;
 
@@ -24,6 +24,9 @@ impl ProcessKeys {
                 let (camera, print) = self.stocks()?;
                 Films::built_in(&camera, print.as_ref())?;
             }
+            Process::Print(print) => {
+                built_in(&print.film)?;
+            }
             Process::Tone(_) => {}
         }
         self.check()?;
@@ -36,8 +39,14 @@ impl ProcessKeys {
     /// As [`ProcessKeys::process`], but for sheets of one's own; a tone mapping takes no films.
     pub fn process_with(&self, films: &Films) -> Result<Process, Error> {
         let process = self.unchecked()?;
-        if let Process::Tone(tone) = &process {
-            return Err(no_films(tone.mapping.approach()));
+        match &process {
+            Process::Tone(tone) => return Err(no_films(tone.mapping.approach())),
+            Process::Print(_) => {
+                let sentence =
+                    "camera is none: data sheets of one's own are not taken behind it, expected a built-in print film";
+                return Err(ErrorKind::Contradiction(sentence.to_owned()).into());
+            }
+            Process::Film(_) | Process::First(_) => {}
         }
         films.check()?;
         self.check()?;
@@ -53,6 +62,7 @@ impl ProcessKeys {
             output_coding: self.output_coding,
         };
         let mapping = match self.approach {
+            Approach::Second if self.camera == NO_CAMERA => return self.print_alone(spaces).map(Process::Print),
             Approach::Second => return self.film(spaces).map(Process::Film),
             Approach::First => {
                 let (camera, print) = self.stocks()?;
@@ -97,7 +107,37 @@ impl ProcessKeys {
         })
     }
 
+    fn print_alone(&self, spaces: ColourSpaces) -> Result<PrintAlone, Error> {
+        let refuse = |sentence: &str| Err(ErrorKind::Contradiction(sentence.to_owned()).into());
+        if self.camera_sheet.is_some() || self.camera_sha256.is_some() {
+            return refuse("camera is none: camera_sheet and camera_sha256 change nothing, expected them left out");
+        }
+        let Some(print) = &self.print else {
+            return refuse(
+                "camera and print are none, expected a print film, such as kodak-2383, behind codes of a scan",
+            );
+        };
+        Ok(PrintAlone {
+            film: stock_ref("print", print, self.print_sheet.as_deref(), self.print_sha256.as_deref())?,
+            curves: self.print_curves,
+            dyes: self.dyes,
+            aim: self.aim,
+            neutral_density: self.neutral_density,
+            points: self.points,
+            projector: self.projector,
+            white: self.white,
+            spaces,
+        })
+    }
+
     fn stocks(&self) -> Result<(StockRef, Option<StockRef>), Error> {
+        if self.camera == NO_CAMERA {
+            let sentence = format!(
+                "camera none prints a scan, which approach {} does not, expected approach second",
+                self.approach.word()
+            );
+            return Err(ErrorKind::Contradiction(sentence).into());
+        }
         let camera = stock_ref("camera", &self.camera, self.camera_sheet.as_deref(), self.camera_sha256.as_deref())?;
         let (path, sha256) = (self.print_sheet.as_deref(), self.print_sha256.as_deref());
         match &self.print {
@@ -140,6 +180,7 @@ impl ProcessKeys {
         }
         match self.unchecked()? {
             Process::Film(film) => film.check(),
+            Process::Print(print) => print.check(),
             Process::First(first) => first.check(),
             Process::Tone(_) => Ok(()),
         }
@@ -173,6 +214,12 @@ impl ProcessKeys {
         let density = [("neutral_density", self.neutral_density != usual.neutral_density)];
         let first = [("first", self.first != usual.first)];
         let (idle, why): (Vec<(&'static str, bool)>, String) = match self.approach {
+            Approach::Second if self.camera == NO_CAMERA => {
+                let of_print = ["print_curves", "points", "aim", "dyes", "projector", "white"];
+                let idle =
+                    film.into_iter().chain(printer).filter(|(key, _)| !of_print.contains(key)).chain(first).collect();
+                (idle, "camera is none and the negative is a scan".to_owned())
+            }
             Approach::Second if self.print.is_none() => {
                 let idle = printer.into_iter().chain(first).collect();
                 (idle, format!("{} is a reversal film and is not printed", self.camera))
@@ -237,6 +284,7 @@ impl From<&Process> for ProcessKeys {
         }
         match process {
             Process::Film(film) => keys.take_film(film),
+            Process::Print(print) => keys.take_print_alone(print),
             Process::First(first) => {
                 (keys.neutral_density, keys.first) = (first.neutral_density, first.controls.clone());
             }
@@ -247,6 +295,15 @@ impl From<&Process> for ProcessKeys {
 }
 
 impl ProcessKeys {
+    fn take_print_alone(&mut self, print: &PrintAlone) {
+        NO_CAMERA.clone_into(&mut self.camera);
+        self.print = Some(print.film.id().to_owned());
+        (self.print_sheet, self.print_sha256) = sheet_of(&print.film);
+        (self.aim, self.neutral_density, self.dyes) = (print.aim, print.neutral_density, print.dyes);
+        (self.print_curves, self.points) = (print.curves, print.points);
+        (self.projector, self.white) = (print.projector, print.white);
+    }
+
     fn take_film(&mut self, film: &FilmProcess) {
         (self.aim, self.neutral_density, self.overexposure) = (film.aim, film.neutral_density, film.overexposure);
         (self.dyes, self.matching) = (film.dyes, film.matching);

@@ -35,7 +35,8 @@ pub struct ProcessKeys {
     /// The simulation, the talk's first approach, or a tone mapping to compare with.
     #[serde(with = "word::text")]
     pub approach: Approach,
-    /// Id of the film in the camera: a negative or a reversal film. Tone mappings read it and leave it out.
+    /// Id of the film in the camera: a negative or a reversal film; `"none"` where codes of a scanned negative are printed. Tone
+    /// mappings read it and leave it out.
     pub camera: String,
     /// The folder of the camera film's data sheet, unless it is built in.
     #[serde(skip_serializing_if = "Option::is_none")]

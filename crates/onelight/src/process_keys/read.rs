@@ -4,7 +4,7 @@ use super::keys::ProcessKeys;
 use super::version::{FormatVersion, NEWEST};
 use crate::error::{Error, ErrorKind};
 use crate::message::{cut, nearest, one_line};
-use crate::process::{Approach, Process, default_print};
+use crate::process::{Approach, NO_CAMERA, Process, default_print};
 
 /// More text than any description needs.
 const MAX_BYTES: usize = 64 * 1024;
@@ -100,7 +100,10 @@ impl ProcessKeys {
                 let problem = "no print beside camera_sheet, expected the id of a print film, or none";
                 return Err(at(1, problem.to_owned()));
             }
-            keys.print = default_print(&keys.camera)?.map(str::to_owned);
+            // A scan is printed on the usual film, which is the default.
+            if keys.camera != NO_CAMERA {
+                keys.print = default_print(&keys.camera)?.map(str::to_owned);
+            }
         }
         Ok(keys)
     }

@@ -10,6 +10,7 @@ mod films;
 mod laws;
 mod oracle;
 mod own_stock;
+mod print_alone;
 mod properties;
 mod scene_light;
 mod stages;

@@ -29,8 +29,8 @@ pub(crate) struct Arguments {
     /// Nodes along each side of the table [default: 33 plain, 65 where it takes a coding, 32 structured]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=129))]
     pub(super) size: Option<u16>,
-    /// How scene light becomes a coordinate of a plain table [default: log2]
-    #[arg(long, value_parser = words::<ShaperChoice>())]
+    /// How scene light becomes a coordinate of a plain table, or which coding it takes instead [default: log2]
+    #[arg(long, visible_alias = "input-coding", value_parser = words::<ShaperChoice>())]
     pub(super) shaper: Option<ShaperChoice>,
     /// Where the range of a plain table ends, in stops over mid grey [default: fitted to the look]
     #[arg(long, value_name = "STOPS", value_parser = stops)]
@@ -128,9 +128,9 @@ impl Arguments {
     }
 
     /// Refuses options that would change nothing.
-    pub(super) fn refuse_idle_options(&self) -> Result<()> {
+    pub(super) fn refuse_idle_options(&self, usual: ShaperChoice) -> Result<()> {
         let form = self.form.unwrap_or_default();
-        let shaper = self.shaper.unwrap_or_default();
+        let shaper = self.shaper.unwrap_or(usual);
         let forms = |allowed: &[Form]| !allowed.contains(&form);
         let (plain, table) = (&[Form::Plain][..], &[Form::Plain, Form::Structured][..]);
         let by_form = [

@@ -19,26 +19,48 @@ pub(super) struct Job {
 
 /// The tables that the arguments ask for, at least one.
 pub(super) fn jobs(arguments: &Arguments, film: &Look) -> Result<Vec<Job>> {
+    let is_print = matches!(film, Look::Print(_));
     if !arguments.targets.is_empty() {
-        return for_programs(arguments);
+        return if is_print { for_resolve_alone(arguments) } else { for_programs(arguments) };
     }
-    arguments.refuse_idle_options()?;
+    if is_print && !arguments.scene.is_empty() {
+        bail!("--scene takes light, which --camera none does not print: it changes nothing, expected it left out");
+    }
+    let usual = if is_print { ShaperChoice::Cineon } else { ShaperChoice::Log2 };
+    arguments.refuse_idle_options(usual)?;
     let job = |recipe: Recipe, formats| Job { recipe, formats, coding: None, loads: Vec::new() };
     if arguments.leaves_the_table_open() {
-        let usual = [ShaperChoice::Log2, ShaperChoice::Srgb].map(Recipe::taking);
-        let sized = usual.map(|recipe| Recipe {
+        let usual = if is_print { vec![usual] } else { vec![usual, ShaperChoice::Srgb] };
+        let sized = usual.into_iter().map(Recipe::taking).map(|recipe| Recipe {
             size: arguments.size.map_or(recipe.size, usize::from),
             storage: arguments.storage.unwrap_or(recipe.storage),
             ..recipe
         });
-        return Ok(sized.map(|recipe| job(recipe, vec![FileFormat::Cube])).into());
+        return Ok(sized.map(|recipe| job(recipe, vec![FileFormat::Cube])).collect());
     }
     let recipe = recipe(arguments, film)?;
-    let mut job = job(recipe, formats(arguments, recipe.form)?);
+    let mut job = job(recipe, formats(arguments, &recipe)?);
     if recipe.shaper == ShaperChoice::Bevy {
         job.coding = Some(TransferCurve::Linear);
     }
     Ok(vec![job])
+}
+
+/// The table of a scan's print for the one program that has a use for it.
+fn for_resolve_alone(arguments: &Arguments) -> Result<Vec<Job>> {
+    if arguments.programs() != [Target::Resolve]
+        || arguments.shaper.is_some_and(|shaper| shaper != ShaperChoice::Cineon)
+    {
+        bail!("--for bakes for a scene's light, but for resolve: expected --for resolve, or none, with --camera none");
+    }
+    let coding = Target::Resolve.usual_coding().filter(|_| !arguments.look.names_output_coding());
+    let load = "a LUT on a node whose picture is Cineon Film Log, as a scan is or a Color Space Transform makes it";
+    Ok(vec![Job {
+        recipe: Recipe::taking(ShaperChoice::Cineon),
+        formats: vec![FileFormat::Cube],
+        coding,
+        loads: vec![(Target::Resolve, load)],
+    }])
 }
 
 /// The tables that programs load, each once.
@@ -91,9 +113,10 @@ fn recipe(arguments: &Arguments, film: &Look) -> Result<Recipe> {
         }
         None => {}
     }
-    let usual = match arguments.shaper {
-        Some(shaper) => Recipe::taking(shaper),
-        None => Recipe::of(form),
+    let usual = match (arguments.shaper, film) {
+        (Some(shaper), _) => Recipe::taking(shaper),
+        (None, Look::Print(_)) if form == Form::Plain => Recipe::taking(ShaperChoice::Cineon),
+        (None, _) => Recipe::of(form),
     };
     // The size that a format's programs expect, where it is the only one.
     let expected = match arguments.format.as_slice() {
@@ -112,7 +135,8 @@ fn recipe(arguments: &Arguments, film: &Look) -> Result<Recipe> {
     })
 }
 
-fn formats(arguments: &Arguments, form: Form) -> Result<Vec<FileFormat>> {
+fn formats(arguments: &Arguments, recipe: &Recipe) -> Result<Vec<FileFormat>> {
+    let form = recipe.form;
     let mut formats = arguments.format.clone();
     if formats.is_empty() {
         formats.push(FileFormat::usual(form));
@@ -128,7 +152,7 @@ fn formats(arguments: &Arguments, form: Form) -> Result<Vec<FileFormat>> {
             other.word()
         );
     }
-    let coded = arguments.shaper.is_some_and(ShaperChoice::is_coding);
+    let coded = recipe.shaper.is_coding();
     if let Some(format) = formats.iter().find(|format| format.needs_coding() && !coded) {
         bail!(
             "--format {} holds no shaper for scene-linear light, expected a coding such as --shaper srgb",

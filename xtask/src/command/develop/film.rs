@@ -3,7 +3,7 @@
 use anyhow::{Result, bail};
 use clap::ValueEnum;
 use indicatif::ProgressBar;
-use onelight::baked::{self, Baked, Recipe};
+use onelight::baked::{self, Baked, Recipe, ShaperChoice};
 use onelight::{Look, Process, Reference, Uncertainty, WideGamut};
 use onelight_picture::Band;
 use rayon::prelude::*;
@@ -29,7 +29,7 @@ impl Form {
     fn usual(look: &ChosenLook) -> Self {
         match look.process {
             Process::Film(_) => Self::Direct,
-            Process::First(_) | Process::Tone(_) => Self::Reference,
+            Process::Print(_) | Process::First(_) | Process::Tone(_) => Self::Reference,
         }
     }
 }
@@ -56,7 +56,11 @@ impl Film {
             Form::Structured => Some(baked::Form::Structured),
             Form::Direct => Some(baked::Form::Direct),
         };
-        let baked = baked.map(|form| exact.baked(&Recipe::of(form))).transpose()?;
+        let recipe = |form| match exact {
+            Look::Print(_) if form == baked::Form::Plain => Recipe::taking(ShaperChoice::Cineon),
+            _ => Recipe::of(form),
+        };
+        let baked = baked.map(|form| exact.baked(&recipe(form))).transpose()?;
         Ok(Self { exact, baked, uncertainty: None, form })
     }
 

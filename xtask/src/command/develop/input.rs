@@ -2,8 +2,9 @@
 
 use std::str::FromStr;
 
+use anyhow::{Result, bail};
 use clap::{Args, ValueEnum};
-use onelight::InputCoding;
+use onelight::{InputCoding, Process, Word as _};
 use onelight_picture::{Limits, PartChoice, Selection};
 
 use crate::words::words;
@@ -109,6 +110,25 @@ impl InputArguments {
             white: self.input_white,
             background: self.background,
         }
+    }
+}
+
+impl InputSettings {
+    /// Codes of a scan for what prints them, and nothing else.
+    pub(super) fn match_to(&mut self, process: &Process) -> Result<()> {
+        match (process, self.coding) {
+            (Process::Print(_), None) => self.coding = Some(InputCoding::Cineon),
+            (Process::Print(_), Some(InputCoding::Cineon)) => {}
+            (Process::Print(_), Some(coding)) => bail!(
+                "--camera none prints codes of a scanned negative, expected --input-coding cineon instead of {}",
+                coding.word()
+            ),
+            (_, Some(InputCoding::Cineon)) => bail!(
+                "--input-coding cineon is of a scanned negative, which a camera film is not exposed by, expected --camera none with it"
+            ),
+            _ => {}
+        }
+        Ok(())
     }
 }
 

@@ -137,9 +137,10 @@ fn to_input_space(
 ) -> Result<Option<Matrix3<f64>>> {
     let look = process.spaces().input_space;
     let named = input.coding.filter(|coding| coding.space().is_some() && input.primaries == InputPrimaries::OfFile);
-    let of_file = picture.primaries.filter(|_| input.primaries == InputPrimaries::OfFile && named.is_none());
+    let coded = named.or(input.coding.filter(|coding| *coding == InputCoding::Cineon));
+    let of_file = picture.primaries.filter(|_| input.primaries == InputPrimaries::OfFile && coded.is_none());
     if picture.primaries.is_some() && of_file.is_none() {
-        let by = match named {
+        let by = match coded {
             Some(coding) => format!("--input-coding {}", coding.word()),
             None => format!("--input-space {}", look.word()),
         };
@@ -167,7 +168,7 @@ fn coding_of(picture: &Description, named: Option<InputCoding>, notes: &mut Vec<
     let floats =
         matches!(picture.source, Source::Exr | Source::RadianceHdr | Source::Tiff { samples: TiffSamples::Float, .. });
     match (named, &picture.transfer) {
-        (Some(coding), None) if picture.source == Source::Exr && coding.space().is_none() => {
+        (Some(coding), None) if picture.source == Source::Exr && matches!(coding, InputCoding::Display(_)) => {
             notes.push("an EXR holds linear light: --input-coding is not used".to_owned());
             Coding::Named(InputCoding::Display(TransferCurve::Linear))
         }
@@ -175,7 +176,7 @@ fn coding_of(picture: &Description, named: Option<InputCoding>, notes: &mut Vec<
             if said.is_some() && picture.source != Source::RadianceHdr {
                 notes.push(format!("the file's own coding gives way to --input-coding {}", coding.word()));
             }
-            if coding.space().is_some() {
+            if !matches!(coding, InputCoding::Display(_)) {
                 notes.push(format!("read as {}, full range", coding.name()));
             }
             Coding::Named(coding)
@@ -212,8 +213,8 @@ fn said_by_file(picture: &Description, input: &InputSettings) -> Option<String> 
         Transfer::Hlg => "HLG-coded, white at 75 %".to_owned(),
         Transfer::Curves(_) => "coded by curves of its own".to_owned(),
     });
-    let of_file =
-        input.primaries == InputPrimaries::OfFile && input.coding.is_none_or(|coding| coding.space().is_none());
+    let of_file = input.primaries == InputPrimaries::OfFile
+        && input.coding.is_none_or(|coding| matches!(coding, InputCoding::Display(_)));
     let primaries = picture.primaries.filter(|_| of_file).map(|own| {
         let named = [
             (Chromaticities::BT709, "sRGB primaries"),

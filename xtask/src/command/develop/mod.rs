@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use clap::Args;
-use onelight::{TransferCurve, Word};
+use onelight::{Process, TransferCurve, Word};
 use onelight_picture::{Band, Description, Limits};
 use serde_json::json;
 
@@ -134,12 +134,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     if scene.is_metered() && arguments.ev == Some(Exposure::Auto) {
         bail!("--ev auto exposes by the picture: the camera's settings change nothing, expected one or the other");
     }
+    let mut input = arguments.picture.settings(arguments.look.names_input_space());
+    input.match_to(&look.process)?;
+    if matches!(look.process, Process::Print(_)) && (arguments.ev.is_some() || !scene.changes_nothing()) {
+        bail!(
+            "--camera none prints codes of a scan, which are no light: --ev, --unit and --buffer change nothing, expected them left out (--points changes the print)"
+        );
+    }
     let mut settings = Settings {
         film: clock.time("compile", || Film::new(&look, arguments.form))?,
         look,
         exposure: arguments.ev.unwrap_or_default(),
         scene,
-        input: arguments.picture.settings(arguments.look.names_input_space()),
+        input,
         target,
         metadata: arguments.out.metadata.unwrap_or_default(),
         limits: Limits {
