@@ -37,9 +37,8 @@ struct PrintAxis {
 impl Axes {
     pub(super) fn new(film: &Reference) -> Result<Self, Error> {
         let camera = film.camera_curves();
-        // Black and white is one layer three times, of which no map to the three of a print can be found, nor is one needed.
-        let one_layer = camera.red == camera.green && camera.green == camera.blue;
-        match film.print_curves().filter(|_| !one_layer) {
+        // No map to the three layers of a print can be found of one, nor is one needed.
+        match film.print_curves().filter(|_| !is_one_layer(film)) {
             None => {
                 let amounts = camera.map(|curve| {
                     let (least, most) = curve.amount_range().into_inner();
@@ -138,6 +137,12 @@ impl PrintAxis {
         // Rounding may lead a hair beyond the ends.
         found.map_or(if coordinate < 0.5 { self.from } else { self.to }, |h| h.0.clamp(self.from, self.to))
     }
+}
+
+/// Whether the camera film is black and white: one layer three times.
+pub(super) fn is_one_layer(film: &Reference) -> bool {
+    let camera = film.camera_curves();
+    camera.red == camera.green && camera.green == camera.blue
 }
 
 /// The affine map nearest to pairs of points, in least squares.

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use crate::error::Error;
 use crate::reference::Reference;
 use crate::word::words;
-use axes::Axes;
+use axes::{Axes, is_one_layer};
 pub(crate) use first_steps::over_log2;
 use first_steps::rows;
 
@@ -142,7 +142,10 @@ impl Reference {
         let lut = StructuredLut::new(parts)?;
         let lut = match settings.entries {
             Entries::Sampled => lut,
-            Entries::Fitted => lut.with_table(encode.fitted(&lut, settings.interpolation)?),
+            Entries::Fitted => {
+                let fitted = encode.fitted(&lut, settings.interpolation)?;
+                lut.with_table(if is_one_layer(self) { monotone_diagonal(&fitted)? } else { fitted })
+            }
         };
         Ok(StructuredLut::new(StructuredParts { expose: self.expose(), ..lut.parts().clone() })?)
     }
@@ -207,6 +210,22 @@ impl Encode<'_> {
             }
         }
     }
+}
+
+/// A table whose nodes on the diagonal never go back on the way from its first to its last: all that black and white reads, which a
+/// fit by least squares bends back a little where the film's curve is flat.
+fn monotone_diagonal(table: &Lut3d) -> Result<Lut3d, Error> {
+    let (size, mut entries) = (table.size(), table.entries().collect::<Vec<_>>());
+    let diagonal = 1 + size + size * size;
+    let (first, last) = (entries[0], entries[(size - 1) * diagonal]);
+    let mut before = first;
+    for i in 1..size {
+        let entry = &mut entries[i * diagonal];
+        let held = |c: usize| if last[c] > first[c] { entry[c].max(before[c]) } else { entry[c].min(before[c]) };
+        *entry = std::array::from_fn(held);
+        before = *entry;
+    }
+    Ok(Lut3d::new(size, entries)?)
 }
 
 /// Every fourth colour is moved to full saturation and every sixteenth to a primary or secondary: the edges of what light

@@ -2,10 +2,11 @@
 
 use onelight::lut::{Interpolation, Lut3d, SceneSampler, Storage, deviation};
 use onelight::{
-    ColourSpaces, Entries, FilmProcess, Reference, StructuredSettings, TableCoding, TransferCurve, WorkingSpace,
+    ColourSpaces, Entries, FilmProcess, Printing, Reference, StructuredSettings, TableCoding, TransferCurve,
+    WorkingSpace,
 };
 
-use crate::{compiled, film};
+use crate::{compiled, film, process};
 
 /// Mean and largest difference over all exposures, colours that no fit has seen.
 fn measured(film: &Reference, settings: &StructuredSettings, storage: Storage) -> (f64, f64) {
@@ -26,6 +27,23 @@ fn small_tables_come_near_the_film() {
         // What the prototypes of this form reached: 0.11 and 0.9.
         let (mean, max) = measured(&film, &settings, Storage::F16);
         assert!(mean < 0.11 && max < 0.9, "{camera}: {mean} {max}");
+    }
+}
+
+/// Black and white reads the table's diagonal alone.
+#[test]
+fn greys_of_black_and_white_get_no_darker_with_more_light() {
+    for (camera, print) in [("kodak-tri-x-400", "kodak-polymax-fine-art"), ("kodak-5222", "kodak-2302")] {
+        let process = FilmProcess { print: Some(Printing::on(print)), ..process(camera) };
+        let lut = compiled(&process).structured(&StructuredSettings::default()).unwrap();
+        for storage in [Storage::F32, Storage::F16] {
+            let lut = lut.with_table(storage.stored(&lut.parts().table).unwrap());
+            let greys = (-200..=200).map(|i| lut.apply([0.18 * (i as f32 / 20.0).exp2(); 3])[1]);
+            let greys: Vec<f32> = greys.collect();
+            // What exp2 in float32 is wrong by.
+            let falls = greys.windows(2).position(|pair| pair[1] < pair[0] - 2e-6);
+            assert_eq!(falls, None, "{camera} on {print}, {storage:?}");
+        }
     }
 }
 
