@@ -39,7 +39,7 @@ pub(crate) fn check(header: &Header, layout: &Layout, step: usize, limits: &Limi
     }
     // The decoder counts the samples of subsampled channels wrongly there.
     if step > 1 && matches!(header.compression, Compression::B44 | Compression::B44A) {
-        let found = "B44, with subsampled chroma,".to_owned();
+        let found = "B44 with subsampled chroma as".to_owned();
         return Err(ExrProblem::Compression { found }.into());
     }
     // Each difference has a quarter of the pixels, and the decoder wants a whole number of bytes for each pixel.

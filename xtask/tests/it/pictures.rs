@@ -119,6 +119,10 @@ fn what_a_file_says_of_its_colours_is_used_and_told() {
         let said = developed(folder, &[path.to_str().unwrap(), "out.png", "--approach", "clip"]);
         assert!(said.contains(expected), "{said}");
     }
+    let jpeg = fixtures().join("corpus/jpeg/display-p3.jpg");
+    let said = developed(folder, &[jpeg.to_str().unwrap(), "out.png"]);
+    assert!(said.contains("a JPEG is a finished picture") && !said.contains("film on film"), "{said}");
+    assert!(developed(folder, &["out.png", "again.png"]).contains("developed already: this is film on film"));
     // The command line comes first.
     let path = fixtures().join("corpus/png/gama-linear-16.png");
     let path = path.to_str().unwrap();
@@ -200,7 +204,16 @@ fn layers_are_chosen_by_name() {
     let path = fixtures().join("corpus/exr/parts.exr");
     let path = path.to_str().unwrap();
     let said = developed(folder, &[path, "out.png", "--approach", "clip"]);
-    assert!(said.contains("note: read "), "{said}");
+    assert!(
+        said.contains("note: read ") && said.contains("the file names no primaries: taken for those of srgb"),
+        "{said}"
+    );
+    let said = developed(folder, &[path, "out.png", "--approach", "clip", "--input-space", "rec2020"]);
+    assert!(!said.contains("names no primaries"), "{said}");
+    let layers = fixtures().join("corpus/exr/layers-of-blender.exr");
+    let said = developed(folder, &[layers.to_str().unwrap(), "out.png", "--approach", "clip"]);
+    assert!(said.contains("read the layer `ViewLayer.Combined`; there are also `ViewLayer.AO`"), "{said}");
+    assert!(said.contains("(--layer or --part chooses another)"), "{said}");
     let output =
         program().args(["develop", path, "out.png", "--layer", "no such"]).current_dir(folder).output().unwrap();
     let sentence = String::from_utf8(output.stderr).unwrap();

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail};
 use indicatif::ProgressBar;
-use onelight::TransferCurve;
 use onelight::spectra::Chromaticity;
+use onelight::{Process, TransferCurve};
 use onelight_picture::{
     Band, BandSink, Channels, Chromaticities, ColourTag, Description, JpegSettings, Limits, Metadata, OutputTransfer,
     PictureReader, PngSettings, TiffSettings, write_jpeg, write_png, write_tiff,
@@ -22,7 +22,7 @@ use super::output::{KeptMetadata, Target};
 use crate::atomic_file::write_atomically;
 use crate::exposure::SceneExposure;
 use crate::look::ChosenLook;
-use crate::picture_file::{open_selected, write_exr_bands};
+use crate::picture_file::{open_selected, text_of_complete_picture, write_exr_bands};
 
 /// Everything that decides how a picture is developed; the same for all pictures of a run.
 pub(super) struct Settings {
@@ -59,6 +59,8 @@ pub(super) struct Order<'a> {
     pub(super) digest: Option<&'a str>,
 }
 
+/// Where the output holds the look.
+const LOOK_KEY: &str = "onelight look";
 /// Where the output holds [`Order::digest`].
 pub(super) const DIGEST_KEY: &str = "onelight job";
 
@@ -80,6 +82,12 @@ pub(super) fn develop_picture(
     let mut picture = open()?;
     let description = picture.description().clone();
     let mut notes = description.notes.clone();
+    notes.iter_mut().filter(|note| note.contains("; there are also ")).for_each(|note| {
+        note.push_str(" (--layer or --part chooses another)");
+    });
+    if matches!(look.process, Process::Film(_)) && text_of_complete_picture(input, LOOK_KEY).is_some() {
+        notes.push("the picture was developed already: this is film on film".to_owned());
+    }
     let light = Light::new(&description, &look.process, &settings.input, &settings.scene, &mut notes);
     let mut light = light.with_context(|| input.display().to_string())?;
     let reopened = || {
@@ -181,7 +189,7 @@ fn write<T>(
     let primaries = Chromaticities { red, green, blue, white: xy(space.white) };
     let look = look.text_in(order.output.parent().unwrap_or(Path::new("")));
     let software = format!("onelight {}", env!("CARGO_PKG_VERSION"));
-    let mut texts = vec![("Software", software.as_str()), ("onelight look", look.as_str())];
+    let mut texts = vec![("Software", software.as_str()), (LOOK_KEY, look.as_str())];
     texts.extend(order.digest.map(|digest| (DIGEST_KEY, digest)));
     let path = order.output;
     let picture = Description { primaries: Some(primaries), ..scene.clone() };

@@ -46,6 +46,7 @@ impl Light {
         let to_input = to_input_space(picture, process, input, notes)?;
         let coding = coding_of(picture, input.coding, notes);
         notes.extend(said_by_file(picture, input));
+        notes.extend(unsaid(picture, process, input));
         let to_xyz = process.spaces().input_space.space().with_white(Chromaticity::black_body_6500_k()).to_xyz();
         let to_xyz = to_xyz.context("the input space")?;
         let luminance = (to_xyz * to_input.unwrap_or_else(Matrix3::identity)).row(1).transpose();
@@ -198,6 +199,23 @@ fn coding_of(picture: &Description, named: Option<InputCoding>, notes: &mut Vec<
             );
             Coding::Named(InputCoding::Display(TransferCurve::Srgb))
         }
+    }
+}
+
+/// What is taken for granted of a picture, for the user to know.
+fn unsaid(picture: &Description, process: &Process, input: &InputSettings) -> Option<String> {
+    let is_named =
+        input.primaries == InputPrimaries::OfLook || input.coding.is_some_and(|coding| coding.space().is_some());
+    let linear = matches!(picture.source, Source::Exr | Source::Tiff { samples: TiffSamples::Float, .. });
+    match picture.source {
+        Source::Jpeg => Some(
+            "a JPEG is a finished picture: its coding is undone, what the camera made of the scene is not".to_owned(),
+        ),
+        _ if linear && picture.primaries.is_none() && !is_named => Some(format!(
+            "the file names no primaries: taken for those of {} (--input-space says otherwise)",
+            process.spaces().input_space.word()
+        )),
+        _ => None,
     }
 }
 
