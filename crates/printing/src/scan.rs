@@ -5,12 +5,12 @@ use crate::aim::EquivalentNeutralDensity;
 use crate::error::{Error, ErrorKind, expect_kind};
 
 /// Gamma that a scanner takes negatives to have: the Cineon system's, for all camera films and all three layers
-/// (\[Cineon1995\]).
+/// (\[Kennel1995\]).
 const SCAN_GAMMA: f64 = 0.6;
 
 /// A scan of a negative turned into a picture: the third way beside print film and paper, without either's curves and dyes.
 ///
-/// The rule is that of the Cineon system (\[Cineon1995\]): densities above the film's base are taken for the logarithm of light, by one
+/// The rule is that of the Cineon system (\[Kennel1995\]): densities above the film's base are taken for the logarithm of light, by one
 /// gamma of 0.6 for every film and layer, and the clear base for black,
 /// `light = (10^((D - D_base) / 0.6) - 1) / (10^((D_grey - D_base) / 0.6) - 1) * grey`.
 /// Densities are status M (\[ISO5-3\]), of black and white visual ones. Each channel is balanced so that a grey card is neutral at the
@@ -138,7 +138,7 @@ mod tests {
         }
     }
 
-    /// \[Cineon1995\]: code values of 0.002 density from the base's 95, white at 685, light 10^((code - 685) 0.002 / 0.6) less that
+    /// \[Kennel1995\]: code values of 0.002 density from the base's 95, white at 685, light 10^((code - 685) 0.002 / 0.6) less that
     /// of the base, is what the rule gives but for the factor that balances grey.
     #[test]
     fn the_rule_is_the_cineon_systems() {
