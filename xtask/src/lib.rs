@@ -2,6 +2,7 @@
 
 mod atomic_file;
 mod command;
+mod effects;
 mod exposure;
 mod finish;
 mod folders;

@@ -9,10 +9,11 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 use onelight::spectra::SceneWhite;
 use onelight::{
-    Aim, Approach, DyeModel, Films, FormatVersion, Look, Process, ProcessKeys, SheetKeys, Stock, StockKind, StockRef,
-    TransferCurve, WorkingSpace, stock,
+    Aim, Approach, DyeModel, FilmEffects, Films, FormatVersion, Look, Process, ProcessKeys, SheetKeys, Stock,
+    StockKind, StockRef, TransferCurve, WorkingSpace, stock,
 };
 
+use crate::effects::EffectSwitches;
 use crate::own_stock::{self, OwnStock};
 use crate::switches::Switches;
 use crate::words::words;
@@ -56,6 +57,8 @@ pub(crate) struct LookArguments {
     output_coding: Option<TransferCurve>,
     #[command(flatten)]
     switches: Switches,
+    #[command(flatten)]
+    effects: EffectSwitches,
 }
 
 /// The light of a scene that is to look white; none leaves white where it is.
@@ -104,6 +107,16 @@ impl ChosenLook {
     /// The films, where a data sheet of one's own is among them.
     pub(crate) fn films(&self) -> Option<&Films> {
         self.films.as_deref()
+    }
+
+    /// What the camera film does to pictures, with the data sheets of one's own that it uses; `None` without a film format.
+    pub(crate) fn effects(&self) -> Result<Option<FilmEffects>> {
+        let Process::Film(process) = &self.process else { return Ok(None) };
+        let found = match &self.films {
+            Some(films) => FilmEffects::with(process, films),
+            None => FilmEffects::new(process),
+        };
+        Ok(found?)
     }
 
     /// The same films by another process.
@@ -229,6 +242,7 @@ impl LookArguments {
         keys.output_space = self.output_space.unwrap_or(keys.output_space);
         keys.output_coding = self.output_coding.unwrap_or(keys.output_coding);
         self.switches.apply(&mut keys);
+        self.effects.apply(&mut keys);
         if keys.camera_sheet.is_none() && keys.print_sheet.is_none() {
             return Ok(ChosenLook { process: keys.process()?, films: None, camera: keys.camera });
         }

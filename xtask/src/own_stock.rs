@@ -9,6 +9,8 @@ use onelight::{OwnSheet, SheetText, Stock};
 
 /// The files of a sheet.
 const FILES: [&str; 4] = ["stock.toml", "sensitivity.csv", "characteristic.csv", "dye_density.csv"];
+/// Those that not every sheet has: for sharpness and grain.
+const FIGURES: [&str; 2] = ["mtf.csv", "granularity.csv"];
 /// More bytes than any of them may have; the library has limits of its own.
 const MAX_BYTES: u64 = 4 << 20;
 
@@ -56,8 +58,16 @@ pub(crate) fn read(folder: &Path) -> Result<OwnStock> {
         characteristic_csv: &characteristic_csv,
         dye_density_csv: &dye_density_csv,
     };
+    let figure = |name| if folder.join(name).exists() { self::text(&folder, name).map(Some) } else { Ok(None) };
+    let [mtf, granularity] = [figure(FIGURES[0])?, figure(FIGURES[1])?];
     let stock = Stock::parse(&text)?;
-    let sheet = OwnSheet { id: stock.id().to_owned(), ..OwnSheet::new(path, &text) };
+    // Without either, colour is all that the folder is for.
+    let stock = match (&mtf, &granularity) {
+        (None, None) => stock,
+        _ => stock.with_figures(mtf.as_deref(), granularity.as_deref())?,
+    };
+    let sheet = OwnSheet::with_figures(path, &text, mtf.as_deref(), granularity.as_deref());
+    let sheet = OwnSheet { id: stock.id().to_owned(), ..sheet };
     Ok(OwnStock { stock, sheet })
 }
 

@@ -201,7 +201,7 @@ mod tests {
         let (plain, turned) = (ProcessKeys::default(), process(&arguments));
         let keys = |keys: &ProcessKeys| keys.to_toml().parse::<toml::Table>().unwrap();
         let (before, after) = (keys(&plain), keys(&turned));
-        let elsewhere = [
+        let look = [
             "version",
             "camera",
             "print",
@@ -213,8 +213,9 @@ mod tests {
             "output_space",
             "output_coding",
         ];
+        let effects = ["film_format", "grain", "sharpness", "halation", "antihalation", "seed"];
         for (key, value) in &after {
-            assert_eq!(before[key] == *value, elsewhere.contains(&key.as_str()), "{key}");
+            assert_eq!(before[key] == *value, [&look[..], &effects].concat().contains(&key.as_str()), "{key}");
         }
         for (key, value) in after["first"].as_table().unwrap() {
             assert!(before["first"].get(key) != Some(value), "first.{key}");

@@ -14,6 +14,7 @@ pub(crate) mod expose;
 mod log2_exp2;
 pub(crate) mod lookup;
 mod matrix;
+pub(crate) mod steps;
 pub(crate) mod sum;
 mod wide;
 

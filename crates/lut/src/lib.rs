@@ -78,7 +78,7 @@ pub use form::structured::{Decode, Mix, StructuredLut, StructuredParts};
 pub use interpolate::Interpolation;
 pub use lut1d::Lut1d;
 pub use lut3d::Lut3d;
-pub use pixels::{Channels, PixelMap, Pixels, PixelsMut, Sample, SimdLevel};
+pub use pixels::{Channels, PixelMap, Pixels, PixelsMut, Sample, SimdLevel, StagedMap};
 pub use scene_light::{IDENTITY, LOG_FLOOR, Rows, SCENE_MAX, finite};
 pub use scene_sampler::SceneSampler;
 pub use shaper::{Shaper, ShaperKind, texel_centre};

@@ -7,10 +7,12 @@ mod run;
 mod sample;
 mod samples;
 mod simd_level;
+mod staged;
 mod transfer;
 mod view;
 
 pub use map::PixelMap;
 pub use sample::Sample;
 pub use simd_level::SimdLevel;
+pub use staged::StagedMap;
 pub use view::{Channels, Pixels, PixelsMut};

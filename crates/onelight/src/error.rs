@@ -16,6 +16,7 @@ pub(crate) enum ErrorKind {
     Spectra(onelight_spectra::Error),
     Film(onelight_film::Error),
     Printing(onelight_printing::Error),
+    Spatial(onelight_spatial::Error),
     Lut(onelight_lut::Error),
     #[cfg(feature = "formats")]
     Formats(onelight_formats::Error),
@@ -69,6 +70,16 @@ impl Error {
         matches!(self.0, ErrorKind::Setting { .. })
     }
 
+    /// Whether a film's sheet does not have what was asked for: modulation transfer for sharpness, granularity for grain.
+    #[must_use]
+    pub fn is_not_published(&self) -> bool {
+        match &self.0 {
+            ErrorKind::Film(error) => error.is_not_published(),
+            ErrorKind::Spatial(error) => error.is_not_published(),
+            _ => false,
+        }
+    }
+
     pub(crate) fn setting(what: &str, found: f64, low: f64, high: f64) -> Self {
         ErrorKind::Setting { what: what.to_owned(), found, expected: format!("{low} to {high}") }.into()
     }
@@ -110,6 +121,12 @@ impl From<onelight_printing::Error> for Error {
     }
 }
 
+impl From<onelight_spatial::Error> for Error {
+    fn from(error: onelight_spatial::Error) -> Self {
+        Self(ErrorKind::Spatial(error))
+    }
+}
+
 impl From<onelight_lut::Error> for Error {
     fn from(error: onelight_lut::Error) -> Self {
         Self(ErrorKind::Lut(error))
@@ -129,6 +146,7 @@ impl fmt::Display for Error {
             ErrorKind::Spectra(error) => error.fmt(f),
             ErrorKind::Film(error) => error.fmt(f),
             ErrorKind::Printing(error) => error.fmt(f),
+            ErrorKind::Spatial(error) => error.fmt(f),
             ErrorKind::Lut(error) => error.fmt(f),
             #[cfg(feature = "formats")]
             ErrorKind::Formats(error) => error.fmt(f),
@@ -153,6 +171,7 @@ impl std::error::Error for Error {
             ErrorKind::Spectra(error) => error.source(),
             ErrorKind::Film(error) => error.source(),
             ErrorKind::Printing(error) => error.source(),
+            ErrorKind::Spatial(error) => error.source(),
             ErrorKind::Lut(error) => error.source(),
             #[cfg(feature = "formats")]
             ErrorKind::Formats(error) => error.source(),
@@ -177,6 +196,7 @@ mod tests {
             film().into(),
             onelight_printing::Error::from(spectra()).into(),
             onelight_printing::Error::from(film()).into(),
+            onelight_spatial::Error::from(film()).into(),
             onelight_lut::Shaper::log2(-1.0, 1.0).unwrap_err().into(),
         ];
         for error in errors {

@@ -95,8 +95,11 @@
 //! # Ok::<(), onelight::Error>(())
 //! ```
 //!
+//! Sharpness, halation and grain of the camera film depend on more than a pixel: [`FilmEffects`] has them, between the three steps of a
+//! look ([`FilmSteps`]).
+//!
 //! # Out of scope
-//! Files (text comes in as `&str`, files go out to writers), grain and halation. Keys in square brackets are resolved in
+//! Files (text comes in as `&str`, files go out to writers). Keys in square brackets are resolved in
 //! REFERENCES.md at the top of the repository.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
@@ -106,6 +109,7 @@ pub mod baked;
 pub mod certify;
 mod cineon;
 mod direct;
+mod effects;
 mod error;
 mod films;
 mod gamut_effect;
@@ -122,6 +126,7 @@ mod uncertainty;
 mod word;
 
 pub use direct::{DirectSettings, LiveDirect, Nodes};
+pub use effects::{EffectsRun, FilmEffects, FilmSteps, FirstLook};
 pub use error::Error;
 pub use films::Films;
 pub use gamut_effect::GamutEffect;
@@ -139,12 +144,13 @@ pub use onelight_lut as lut;
 pub use onelight_lut::{Channels, PixelMap, Pixels, PixelsMut};
 pub use onelight_printing as printing;
 pub use onelight_printing::{Aim, Calibration, Filters, HeatGlass, Infrared, PrinterLight, Projector, White, Wratten};
+pub use onelight_spatial as spatial;
 pub use onelight_spectra as spectra;
 pub use onelight_spectra::{DisplayLinear, Reconstruction, TransferCurve};
 pub use process::{
-    Approach, ColourSpaces, DEFAULT_CAMERA, DEFAULT_PRINT, DEFAULT_SILVER_PRINT, FilmProcess, FirstControls,
-    FirstProcess, InterImageChoice, OwnSheet, PrintAlone, Printing, Process, StockRef, ToneMapping, ToneProcess,
-    usual_print,
+    Approach, ColourSpaces, DEFAULT_CAMERA, DEFAULT_PRINT, DEFAULT_SILVER_PRINT, EffectChoice, Effects, FilmProcess,
+    FirstControls, FirstProcess, InterImageChoice, OwnSheet, PrintAlone, Printing, Process, StockRef, ToneMapping,
+    ToneProcess, usual_print,
 };
 pub use process_keys::{FormatVersion, ProcessKeys, SheetKeys};
 pub use reference::{PrintStage, Reference, Stages};

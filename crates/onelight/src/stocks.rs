@@ -32,7 +32,8 @@ pub fn stock(id: &str) -> Result<Stock, Error> {
         sensitivity_csv: files.sensitivity_csv,
         characteristic_csv: files.characteristic_csv,
         dye_density_csv: files.dye_density_csv,
-    })?)
+    })?
+    .with_figures(files.mtf_csv, files.granularity_csv)?)
 }
 
 #[cfg(test)]

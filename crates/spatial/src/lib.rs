@@ -4,7 +4,8 @@
 //! - [`Sharpness`]: scatter of light and adjacency of development, from the sheet's modulation transfer ([`MtfFit`])
 //! - [`Halation`]: light that returns from the back of the base
 //! - [`Grain`]: from the sheet's granularity ([`AmountGranularity`])
-//! - [`SpatialStage`]: applies them to planes of exposures, in bands of rows; [`Development`] and [`Finish`] are what comes between and after
+//! - [`SpatialStage`]: applies them to planes of exposures, in bands of rows; [`StageRun`] does it while a picture is read; [`Development`] and [`Finish`] are what comes between and after
+//! - [`FirstPass`]: what must be known of a whole picture before its first row can be finished
 //! - [`grain_decision`], [`SharpnessProbe`], [`HalationProbe`]: whether an effect can be seen in a picture, and why ([`Decision`])
 //! - [`CONSTANTS`]: every number that is on no sheet of the film, with its origin
 //!
@@ -44,6 +45,7 @@ mod cells;
 mod chain;
 mod constant;
 mod error;
+mod first_pass;
 mod format;
 mod frame;
 mod grain;
@@ -51,6 +53,7 @@ mod halation;
 mod least_squares;
 mod mtf;
 mod planes;
+mod run;
 mod sharpness;
 mod stage;
 mod strip;
@@ -63,12 +66,14 @@ pub use constant::{
     PRINT_BLUR, RETURNED_TO_BLUE, RETURNED_TO_GREEN, RETURNED_TO_RED, TRIACETATE_INDEX, TRIACETATE_THICKNESS,
 };
 pub use error::Error;
+pub use first_pass::{FirstPass, FirstPassResult};
 pub use format::{FilmFormat, Millimetres, Pitch};
 pub use frame::Frame;
 pub use grain::{AmountGranularity, Grain, GrainSettings};
 pub use halation::{Antihalation, FilmBase, Halation, HalationCells, HalationSettings, HaloField};
 pub use mtf::MtfFit;
 pub use planes::Planes;
+pub use run::StageRun;
 pub use sharpness::Sharpness;
 pub use stage::{SpatialStage, StageBuffers};
 pub use taps::Taps;

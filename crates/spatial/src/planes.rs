@@ -1,5 +1,7 @@
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 use crate::error::{Error, ErrorKind};
 
 /// Most numbers in a plane: 4 GiB of them.
@@ -56,6 +58,20 @@ impl Planes {
         Ok(())
     }
 
+    /// Makes these the planes of later rows: those that it has of them stay, what is in others does not matter.
+    pub(crate) fn move_on(&mut self, width: usize, rows: Range<usize>) -> Result<(), Error> {
+        let numbers = Self::limit(width, rows.len())?;
+        let kept = rows.start.clamp(self.rows.start, self.rows.end)..self.rows.end;
+        let numbers_of = |rows: &Range<usize>| rows.start * width..rows.end * width;
+        if self.width == width && kept.start == rows.start {
+            let from = numbers_of(&(kept.start - self.rows.start..kept.end - self.rows.start));
+            self.layers.iter_mut().for_each(|layer| layer.copy_within(from.clone(), 0));
+        }
+        self.layers.iter_mut().for_each(|layer| layer.resize(numbers, 0.0));
+        (self.width, self.rows) = (width, rows);
+        Ok(())
+    }
+
     /// No rows yet.
     pub(crate) fn none() -> Self {
         Self { width: 0, rows: 0..0, layers: [Vec::new(), Vec::new(), Vec::new()] }
@@ -91,14 +107,52 @@ impl Planes {
         self.layers.each_mut().map(|layer| &mut layer[start..start + width])
     }
 
+    /// Some of the rows, each with its three layers, for the threads of the current rayon pool; those that are not held are left out.
+    ///
+    /// ```
+    /// use onelight_spatial::Planes;
+    /// use rayon::prelude::*;
+    /// let mut rows = Planes::new(1920, 540..548)?;
+    /// rows.par_rows_mut(541..600).for_each(|[red, _, _]| red.fill(0.5));
+    /// assert_eq!((rows.row(540)[0][7], rows.row(547)[0][7]), (0.0, 0.5));
+    /// # Ok::<(), onelight_spatial::Error>(())
+    /// ```
+    pub fn par_rows_mut(&mut self, rows: Range<usize>) -> impl IndexedParallelIterator<Item = [&mut [f32]; 3]> {
+        let width = self.width.max(1);
+        let [red, green, blue] = self.layers_of_mut(rows);
+        let layers = red.par_chunks_mut(width).zip(green.par_chunks_mut(width)).zip(blue.par_chunks_mut(width));
+        layers.map(|((red, green), blue)| [red, green, blue])
+    }
+
+    /// A copy of some of the rows.
+    ///
+    /// # Errors
+    /// If not all of them are held, or they are none.
+    pub fn part(&self, rows: Range<usize>) -> Result<Self, Error> {
+        if rows.start < self.rows.start || rows.end > self.rows.end {
+            let found = format!("{} to {}", self.rows.start, self.rows.end);
+            let expected = format!("{} to {}", rows.start, rows.end);
+            return Err(ErrorKind::Planes { what: "rows", found, expected }.into());
+        }
+        Self::limit(self.width, rows.len())?;
+        let numbers = (rows.start - self.rows.start) * self.width..(rows.end - self.rows.start) * self.width;
+        Ok(Self {
+            width: self.width,
+            layers: self.layers.each_ref().map(|layer| layer[numbers.clone()].to_vec()),
+            rows,
+        })
+    }
+
     pub(crate) fn layer_row(&self, layer: usize, y: usize) -> &[f32] {
         let start = self.start(y);
         &self.layers[layer][start..start + self.width]
     }
 
-    /// All numbers of the layers, row after row.
-    pub(crate) fn layers_mut(&mut self) -> [&mut [f32]; 3] {
-        self.layers.each_mut().map(Vec::as_mut_slice)
+    /// The numbers of some of the rows, as far as they are held, layer by layer and row after row.
+    pub(crate) fn layers_of_mut(&mut self, rows: Range<usize>) -> [&mut [f32]; 3] {
+        let inside = |row: usize| (row.clamp(self.rows.start, self.rows.end) - self.rows.start) * self.width;
+        let numbers = inside(rows.start)..inside(rows.end.max(rows.start));
+        self.layers.each_mut().map(|layer| &mut layer[numbers.clone()])
     }
 
     fn start(&self, y: usize) -> usize {

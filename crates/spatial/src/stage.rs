@@ -153,7 +153,7 @@ impl SpatialStage {
     }
 
     /// The rows of developed amounts that the amounts of these rows depend on.
-    fn amount_rows(&self, rows: Range<usize>) -> Range<usize> {
+    pub(crate) fn amount_rows(&self, rows: Range<usize>) -> Range<usize> {
         let mut all = rows.clone();
         for adjacency in self.layers().filter_map(|layer| layer.adjacency.as_ref()) {
             let needed = match &adjacency.blur {
@@ -208,15 +208,21 @@ impl SpatialStage {
         self.check(exposures, halo, &rows)?;
         let StageBuffers { developed, finished } = buffers;
         developed.reset(self.frame.width(), self.amount_rows(rows.clone()))?;
-        self.develop(exposures, halo, developed, development);
+        let all = developed.rows();
+        self.develop(exposures, halo, developed, all, development);
         if self.grain.is_none() && self.layers().all(|layer| layer.adjacency.is_none()) {
             std::mem::swap(developed, finished);
             return Ok(finished);
         }
-        let developed = &*developed;
+        self.finish(developed, finished, rows)?;
+        Ok(finished)
+    }
+
+    /// Adjacency and grain: the amounts of `rows` from developed ones, of which those of [`SpatialStage::amount_rows`] are there.
+    pub(crate) fn finish(&self, developed: &Planes, finished: &mut Planes, rows: Range<usize>) -> Result<(), Error> {
         let cells: Vec<_> = (0..3).into_par_iter().map(|layer| self.adjacency_cells(developed, layer, &rows)).collect();
-        finished.reset(self.frame.width(), rows)?;
-        self.for_each_strip(finished, |tile, scratch, strip| {
+        finished.reset(self.frame.width(), rows.clone())?;
+        self.for_each_strip(finished, rows, |tile, scratch, strip| {
             for (layer, cells) in cells.iter().enumerate() {
                 let mut out: Vec<&mut [f32]> = strip.iter_mut().map(|rows| &mut *rows[layer]).collect();
                 let adjacency = self.blurs.as_ref().and_then(|blurs| blurs[layer].adjacency.as_ref());
@@ -226,7 +232,7 @@ impl SpatialStage {
                 add_grain(self.level, grain, self.frame.number(), tile, self.frame.offset(), scratch, strip);
             }
         });
-        Ok(finished)
+        Ok(())
     }
 
     fn check(&self, exposures: &Planes, halo: Option<&HaloField>, rows: &Range<usize>) -> Result<(), Error> {
@@ -241,6 +247,11 @@ impl SpatialStage {
             let expected = format!("rows {} to {} of {} pixels", needed.start, needed.end, self.frame.width());
             return refuse("exposures", found, expected);
         }
+        self.check_halo(halo)
+    }
+
+    pub(crate) fn check_halo(&self, halo: Option<&HaloField>) -> Result<(), Error> {
+        let refuse = |what, found: String, expected: String| Err(ErrorKind::Planes { what, found, expected }.into());
         match (&self.halation, halo) {
             (Some(_), None) => refuse("halo", "none".to_owned(), "that of the whole picture's exposures".to_owned()),
             (None, Some(_)) => refuse("halo", "one".to_owned(), "none without halation".to_owned()),
@@ -253,15 +264,16 @@ impl SpatialStage {
         }
     }
 
-    /// Rows after scatter, halation and development.
-    fn develop(
+    /// Some rows of `developed` after scatter, halation and development.
+    pub(crate) fn develop(
         &self,
         exposures: &Planes,
         halo: Option<&HaloField>,
         developed: &mut Planes,
+        rows: Range<usize>,
         development: &impl Development,
     ) {
-        self.for_each_strip(developed, |tile, scratch, strip| {
+        self.for_each_strip(developed, rows, |tile, scratch, strip| {
             for layer in 0..3 {
                 let mut out: Vec<&mut [f32]> = strip.iter_mut().map(|rows| &mut *rows[layer]).collect();
                 let scatter = self.blurs.as_ref().and_then(|blurs| blurs[layer].scatter.as_ref());
@@ -289,10 +301,15 @@ impl SpatialStage {
         Some((blurred, Expansion::new(x)))
     }
 
-    /// Hands the tiles of all strips to `work`, strips on the threads of the current pool.
-    fn for_each_strip(&self, planes: &mut Planes, work: impl Fn(Tile, &mut Scratch, &mut [[&mut [f32]; 3]]) + Sync) {
-        let (width, height, first) = (planes.width(), self.frame.height(), planes.rows().start);
-        let [red, green, blue] = planes.layers_mut();
+    /// Hands the tiles of all strips of some rows to `work`, strips on the threads of the current pool.
+    fn for_each_strip(
+        &self,
+        planes: &mut Planes,
+        rows: Range<usize>,
+        work: impl Fn(Tile, &mut Scratch, &mut [[&mut [f32]; 3]]) + Sync,
+    ) {
+        let (width, height, first) = (planes.width(), self.frame.height(), rows.start);
+        let [red, green, blue] = planes.layers_of_mut(rows);
         let strips = red.par_chunks_mut(STRIP * width).zip(green.par_chunks_mut(STRIP * width));
         let strips = strips.zip(blue.par_chunks_mut(STRIP * width)).enumerate();
         strips.for_each_init(Scratch::default, |scratch, (index, ((red, green), blue))| {

@@ -8,6 +8,7 @@ mod clients;
 mod command_line;
 mod corpora;
 mod damaged;
+mod effects;
 #[cfg(target_os = "linux")]
 mod hostile;
 mod looks;

@@ -7,6 +7,7 @@ use crate::kernel::block::{Block, BlockMap};
 use crate::kernel::coding::code;
 use crate::kernel::curves::Curves;
 use crate::kernel::expose::expose;
+use crate::kernel::steps::{BlockSteps, widened};
 use crate::kernel::sum::{Exponentials, log2_of_light};
 use crate::lut1d::Lut1d;
 use crate::number::Number;
@@ -120,7 +121,7 @@ impl DirectForm {
         parts.expose.check()?;
         parts.develop.check()?;
         let develop = DevelopCurves::new(&parts.develop);
-        let first = parts.develop.curves.ends();
+        let first = widened(parts.develop.curves.ends());
         let print = parts.print.as_ref().map(|DirectPrint { exposure, curves }| PrintSteps {
             exposure: Exponentials::new(exposure, first),
             curves: Curves::new(curves),
@@ -200,8 +201,26 @@ impl DirectForm {
 
 impl BlockMap for DirectForm {
     fn map_block(&self, level: Level, block: &mut Block, count: usize) {
+        self.expose_block(level, block, count);
+        self.develop_block(level, block, count);
+        self.finish_block(level, block, count);
+    }
+}
+
+impl BlockSteps for DirectForm {
+    fn held(&self) -> [[f32; 2]; 3] {
+        widened(self.parts.develop.curves.ends())
+    }
+
+    fn expose_block(&self, level: Level, block: &mut Block, count: usize) {
         expose(level, &self.parts.expose, block, count);
+    }
+
+    fn develop_block(&self, level: Level, block: &mut Block, count: usize) {
         self.develop.apply(level, block, count);
+    }
+
+    fn finish_block(&self, level: Level, block: &mut Block, count: usize) {
         if let Some(PrintSteps { exposure, curves }) = &self.print {
             exposure.apply(level, block, count);
             log2_of_light(level, block, count);

@@ -11,6 +11,7 @@ use crate::kernel::coding::decode_density;
 use crate::kernel::curves::Curves;
 use crate::kernel::expose::{affine, expose};
 use crate::kernel::lookup::{lookup, lookup_to};
+use crate::kernel::steps::{BlockSteps, widened};
 use crate::lut1d::Lut1d;
 use crate::lut3d::Lut3d;
 use crate::number::Number;
@@ -221,8 +222,13 @@ impl StructuredLut {
 
     /// The block's coordinates in the table.
     fn find_block(&self, level: Level, block: &mut Block, count: usize) {
-        expose(level, &self.parts.expose, block, count);
-        self.develop.apply(level, block, count);
+        self.expose_block(level, block, count);
+        self.develop_block(level, block, count);
+        self.mix_block(level, block, count);
+    }
+
+    /// What the first film holds to coordinates.
+    fn mix_block(&self, level: Level, block: &mut Block, count: usize) {
         if let (Some(mix), Some(curves)) = (&self.parts.mix, &self.mix_curves) {
             affine(level, &mix.matrix, mix.offset, block, count);
             curves.apply(level, block, count);
@@ -232,11 +238,9 @@ impl StructuredLut {
 
 impl BlockMap for StructuredLut {
     fn map_block(&self, level: Level, block: &mut Block, count: usize) {
-        self.find_block(level, block, count);
-        lookup(level, Axes::Coordinates, &self.parts.table, self.parts.interpolation, block, count);
-        if let Decode::Density { matrix, coding } = &self.parts.decode {
-            decode_density(level, matrix, &coding.numbers(), block, count);
-        }
+        self.expose_block(level, block, count);
+        self.develop_block(level, block, count);
+        self.finish_block(level, block, count);
     }
 
     fn map_block_to(&self, level: Level, block: &mut Block, to: &mut [[f32; 4]]) {
@@ -249,6 +253,28 @@ impl BlockMap for StructuredLut {
                 self.map_block(level, block, to.len());
                 interleave(level, block, to);
             }
+        }
+    }
+}
+
+impl BlockSteps for StructuredLut {
+    fn held(&self) -> [[f32; 2]; 3] {
+        widened(self.parts.develop.curves.ends())
+    }
+
+    fn expose_block(&self, level: Level, block: &mut Block, count: usize) {
+        expose(level, &self.parts.expose, block, count);
+    }
+
+    fn develop_block(&self, level: Level, block: &mut Block, count: usize) {
+        self.develop.apply(level, block, count);
+    }
+
+    fn finish_block(&self, level: Level, block: &mut Block, count: usize) {
+        self.mix_block(level, block, count);
+        lookup(level, Axes::Coordinates, &self.parts.table, self.parts.interpolation, block, count);
+        if let Decode::Density { matrix, coding } = &self.parts.decode {
+            decode_density(level, matrix, &coding.numbers(), block, count);
         }
     }
 }

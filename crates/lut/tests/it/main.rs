@@ -3,3 +3,4 @@
 
 mod pixels;
 mod properties;
+mod staged;

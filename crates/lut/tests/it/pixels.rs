@@ -64,7 +64,7 @@ fn develop(top: f32) -> Develop {
     Develop { coupling: Some(coupling), curves: curves(-10.0, 5.0, top) }
 }
 
-fn structured(decode: Decode, mix: Option<Mix>) -> StructuredLut {
+pub(crate) fn structured(decode: Decode, mix: Option<Mix>) -> StructuredLut {
     let parts = StructuredParts {
         expose: expose(if mix.is_some() { MIXED } else { IDENTITY }),
         develop: develop(1.0),
@@ -76,11 +76,11 @@ fn structured(decode: Decode, mix: Option<Mix>) -> StructuredLut {
     StructuredLut::new(parts).unwrap()
 }
 
-fn density() -> Decode {
+pub(crate) fn density() -> Decode {
     Decode::Density { matrix: MIXED, coding: PowerCoding::new(2.4, 0.055).unwrap() }
 }
 
-fn mix() -> Option<Mix> {
+pub(crate) fn mix() -> Option<Mix> {
     Some(Mix { matrix: MIXED, offset: [0.01, 0.0, -0.01], curves: curves(0.0, 1.1, 1.0) })
 }
 
@@ -93,18 +93,18 @@ fn sum(terms: usize, light: f32) -> ExponentialSum {
     ExponentialSum::new((0..terms).map(term).collect()).unwrap()
 }
 
-fn direct(print: Option<DirectPrint>) -> DirectForm {
+pub(crate) fn direct(print: Option<DirectPrint>) -> DirectForm {
     let coding = PowerCoding::new(2.4, 0.055).unwrap();
     let parts = DirectParts { expose: expose(MIXED), develop: develop(2.0), print, projection: sum(13, 1.5), coding };
     DirectForm::new(parts).unwrap()
 }
 
-fn print() -> Option<DirectPrint> {
+pub(crate) fn print() -> Option<DirectPrint> {
     Some(DirectPrint { exposure: sum(6, 4.0), curves: curves(-6.0, 3.0, 2.0) })
 }
 
 /// Scene light with hard numbers strewn in, as RGBA.
-fn scene(pixels: usize) -> Vec<f32> {
+pub(crate) fn scene(pixels: usize) -> Vec<f32> {
     let colours = SceneSampler::new(-10.0..=7.0).unwrap().take(pixels);
     let mut samples: Vec<f32> =
         colours.flat_map(|[r, g, b]| [r as f32, g as f32, b as f32, (r * 0.3) as f32]).collect();

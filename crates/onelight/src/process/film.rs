@@ -5,6 +5,7 @@ use onelight_printing::{
 };
 use onelight_spectra::Reconstruction;
 
+use super::effects::Effects;
 use super::spaces::ColourSpaces;
 use super::stock_ref::{DEFAULT_CAMERA, DEFAULT_PRINT, StockRef, default_print};
 use crate::error::{Error, ErrorKind};
@@ -51,6 +52,8 @@ pub struct FilmProcess {
     pub projector: Projector,
     /// What a viewer takes for white. Grey is aimed at after it, and [`FilmProcess::neutral_density`] is relative to it.
     pub white: White,
+    /// What the camera film does to a picture, not to a colour: no map of colours has any of it.
+    pub effects: Effects,
     /// The RGB that comes in and goes out.
     pub spaces: ColourSpaces,
 }
@@ -139,6 +142,7 @@ impl Default for FilmProcess {
             gamut: WideGamut::default(),
             projector: Projector::default(),
             white: White::default(),
+            effects: Effects::default(),
             spaces: ColourSpaces::default(),
         }
     }
@@ -173,6 +177,7 @@ impl FilmProcess {
     /// Whether the numbers are within their ranges, and every setting changes something.
     pub(crate) fn check(&self) -> Result<(), Error> {
         check_exposure(self.neutral_density, self.overexposure)?;
+        self.effects.check()?;
         if let Some(print) = &self.print {
             check_lights(&print.beam_density, &print.points)?;
         }

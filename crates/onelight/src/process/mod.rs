@@ -1,6 +1,7 @@
 //! Descriptions of looks: one struct for each kind, none with a field that means nothing to it.
 
 mod approach;
+mod effects;
 mod film;
 mod first;
 mod print_alone;
@@ -11,6 +12,7 @@ mod tone;
 use onelight_printing::Aim;
 
 pub use approach::Approach;
+pub use effects::{EffectChoice, Effects};
 pub use film::{FilmProcess, InterImageChoice, Printing};
 pub(crate) use film::{check_exposure, check_lights};
 pub use first::{FirstControls, FirstProcess};

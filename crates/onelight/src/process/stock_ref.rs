@@ -49,7 +49,8 @@ pub struct OwnSheet {
     /// The folder; in `look.toml` as seen from the folder of that file. This crate opens no paths.
     pub path: String,
     /// SHA-256 of the sheet's files in 64 hexadecimal digits: what
-    /// `sha256sum stock.toml sensitivity.csv characteristic.csv dye_density.csv | sha256sum` says in the folder.
+    /// `sha256sum stock.toml sensitivity.csv characteristic.csv dye_density.csv | sha256sum` says in the folder; `mtf.csv` and
+    /// `granularity.csv` come behind them where they are there.
     pub sha256: String,
 }
 
@@ -57,13 +58,27 @@ impl OwnSheet {
     /// The sheet in the folder `path`, with the digest of its text. [`Stock::parse`](crate::Stock::parse) says whether it is a sheet.
     #[must_use]
     pub fn new(path: impl Into<String>, text: &SheetText<'_>) -> Self {
+        Self::with_figures(path, text, None, None)
+    }
+
+    /// The same, of a sheet with the texts of `mtf.csv` and `granularity.csv`, which [`Stock::with_figures`](crate::Stock::with_figures)
+    /// reads.
+    #[must_use]
+    pub fn with_figures(
+        path: impl Into<String>,
+        text: &SheetText<'_>,
+        mtf_csv: Option<&str>,
+        granularity_csv: Option<&str>,
+    ) -> Self {
         let files = [
             ("stock.toml", text.stock_toml),
             ("sensitivity.csv", text.sensitivity_csv),
             ("characteristic.csv", text.characteristic_csv),
             ("dye_density.csv", text.dye_density_csv),
+            ("mtf.csv", mtf_csv.unwrap_or_default()),
+            ("granularity.csv", granularity_csv.unwrap_or_default()),
         ];
-        // Black and white has no dyes, and no file of them.
+        // Black and white has no dyes, and no file of them; not every sheet has the last two.
         let files = files.iter().filter(|(_, text)| !text.is_empty());
         let lines: String = files.map(|(name, text)| format!("{}  {name}\n", sha256(text))).collect();
         Self { id: text.id.to_owned(), path: path.into(), sha256: sha256(&lines) }

@@ -6,8 +6,8 @@ use super::keys::ProcessKeys;
 use crate::error::{Error, ErrorKind};
 use crate::films::{Films, built_in};
 use crate::process::{
-    Approach, ColourSpaces, FilmProcess, FirstControls, FirstProcess, NO_CAMERA, OwnSheet, PrintAlone, Printing,
-    Process, StockRef, ToneMapping, ToneProcess, check_exposure, check_lights,
+    Approach, ColourSpaces, Effects, FilmProcess, FirstControls, FirstProcess, NO_CAMERA, OwnSheet, PrintAlone,
+    Printing, Process, StockRef, ToneMapping, ToneProcess, check_exposure, check_lights,
 };
 use crate::word::Word as _;
 
@@ -103,6 +103,7 @@ impl ProcessKeys {
             gamut: self.gamut,
             projector: self.projector,
             white: self.white,
+            effects: self.effects(),
             spaces,
         })
     }
@@ -128,6 +129,17 @@ impl ProcessKeys {
             white: self.white,
             spaces,
         })
+    }
+
+    fn effects(&self) -> Effects {
+        Effects {
+            film_format: self.film_format,
+            grain: self.grain,
+            sharpness: self.sharpness,
+            halation: self.halation,
+            antihalation: self.antihalation,
+            seed: self.seed,
+        }
     }
 
     fn stocks(&self) -> Result<(StockRef, Option<StockRef>), Error> {
@@ -210,6 +222,12 @@ impl ProcessKeys {
             ("gamut", self.gamut != usual.gamut),
             ("projector", self.projector != usual.projector),
             ("white", self.white != usual.white),
+            ("film_format", self.film_format != usual.film_format),
+            ("grain", self.grain != usual.grain),
+            ("sharpness", self.sharpness != usual.sharpness),
+            ("halation", self.halation != usual.halation),
+            ("antihalation", self.antihalation != usual.antihalation),
+            ("seed", self.seed != usual.seed),
         ];
         let density = [("neutral_density", self.neutral_density != usual.neutral_density)];
         let first = [("first", self.first != usual.first)];
@@ -309,6 +327,9 @@ impl ProcessKeys {
         (self.dyes, self.matching) = (film.dyes, film.matching);
         (self.inter_image, self.gamut, self.white) = (film.inter_image, film.gamut, film.white);
         (self.reconstruction, self.projector) = (film.reconstruction, film.projector);
+        let Effects { film_format, grain, sharpness, halation, antihalation, seed } = film.effects;
+        (self.film_format, self.grain, self.sharpness) = (film_format, grain, sharpness);
+        (self.halation, self.antihalation, self.seed) = (halation, antihalation, seed);
         if let Some(print) = &film.print {
             self.print_curves = print.curves;
             (self.light, self.filters, self.beam_density) = (print.light, print.filters, print.beam_density);

@@ -2,13 +2,18 @@ use onelight_film::{DyeModel, Matching, PrintCurves, Tail, WideGamut};
 use onelight_printing::{
     Aim, Calibration, Filters, HeatGlass, Infrared, NEUTRAL_DENSITY, Printer, PrinterLight, Projector, White,
 };
+use onelight_spatial::{Antihalation, FilmFormat};
 use onelight_spectra::{Reconstruction, SceneWhite, TransferCurve};
 use serde::{Deserialize, Serialize};
 
 use super::version::FormatVersion;
-use super::word_lists::{self, parse_calibration, parse_inter_image, parse_print, parse_scene_white};
+use super::word_lists::{
+    self, parse_antihalation, parse_calibration, parse_film_format, parse_inter_image, parse_print, parse_scene_white,
+};
 use crate::error::Error;
-use crate::process::{Approach, DEFAULT_CAMERA, DEFAULT_PRINT, FilmProcess, FirstControls, InterImageChoice};
+use crate::process::{
+    Approach, DEFAULT_CAMERA, DEFAULT_PRINT, EffectChoice, Effects, FilmProcess, FirstControls, InterImageChoice,
+};
 use crate::word::{self, WorkingSpace};
 
 /// Every key of `look.toml` with its value: what a file says and a command line changes before it is one kind of [`Process`].
@@ -111,6 +116,23 @@ pub struct ProcessKeys {
     /// The light that is to become neutral: `"none"`, or kelvin and a tint as `"3200"` or `"5600,10"`.
     #[serde(with = "word_lists::scene_white")]
     pub scene_white: Option<SceneWhite>,
+    /// How large the picture is on the film, for sharpness, halation and grain; `None` (`"none"` in text) leaves them out.
+    #[serde(with = "word_lists::film_format")]
+    pub film_format: Option<FilmFormat>,
+    /// Whether grain is run.
+    #[serde(with = "word::text")]
+    pub grain: EffectChoice,
+    /// Whether scatter and adjacency are run.
+    #[serde(with = "word::text")]
+    pub sharpness: EffectChoice,
+    /// Whether halation is run.
+    #[serde(with = "word::text")]
+    pub halation: EffectChoice,
+    /// Density of the antihalation layer, 0 to 3, or `"none"` for a film without one.
+    #[serde(with = "word_lists::antihalation")]
+    pub antihalation: Antihalation,
+    /// Another seed, another pattern of grain.
+    pub seed: u32,
     /// Primaries of the scene-linear RGB that comes in.
     #[serde(with = "word::text")]
     pub input_space: WorkingSpace,
@@ -126,6 +148,7 @@ pub struct ProcessKeys {
 
 impl Default for ProcessKeys {
     fn default() -> Self {
+        let Effects { film_format, grain, sharpness, halation, antihalation, seed } = Effects::default();
         Self {
             version: FormatVersion::default(),
             approach: Approach::default(),
@@ -156,6 +179,12 @@ impl Default for ProcessKeys {
             white: White::default(),
             ev: 0.0,
             scene_white: None,
+            film_format,
+            grain,
+            sharpness,
+            halation,
+            antihalation,
+            seed,
             input_space: WorkingSpace::default(),
             output_space: WorkingSpace::default(),
             output_coding: TransferCurve::default(),
@@ -220,6 +249,22 @@ impl ProcessKeys {
     /// If it is neither `none` nor one or two numbers in their ranges.
     pub fn parse_scene_white(word: &str) -> Result<Option<SceneWhite>, Error> {
         parse_scene_white(word)
+    }
+
+    /// What `film_format` is for a word: a name or a width such as `24.9mm`, `None` for `none`.
+    ///
+    /// # Errors
+    /// If the word is none of these, or the width is out of range.
+    pub fn parse_film_format(word: &str) -> Result<Option<FilmFormat>, Error> {
+        parse_film_format(word)
+    }
+
+    /// What `antihalation` is for a word: a density, or `none`.
+    ///
+    /// # Errors
+    /// If the word is neither.
+    pub fn parse_antihalation(word: &str) -> Result<Antihalation, Error> {
+        parse_antihalation(word)
     }
 
     /// What `calibration` is for a word: `exact`, or a number of iterations.

@@ -10,7 +10,7 @@ use crate::process::{Approach, NO_CAMERA, Process, default_print};
 const MAX_BYTES: usize = 64 * 1024;
 
 /// Every key, for messages; a test holds it against the struct.
-const KEYS: [&str; 29] = [
+const KEYS: [&str; 35] = [
     "version",
     "approach",
     "camera",
@@ -36,13 +36,32 @@ const KEYS: [&str; 29] = [
     "white",
     "ev",
     "scene_white",
+    "film_format",
+    "grain",
+    "sharpness",
+    "halation",
+    "antihalation",
+    "seed",
     "input_space",
     "output_space",
     "output_coding",
     "first",
 ];
 /// The keys that version 1 did not have.
-const NEW_KEYS: [&str; 6] = ["interimage", "gamut", "print_curves", "white", "ev", "scene_white"];
+const NEW_KEYS: [&str; 12] = [
+    "interimage",
+    "gamut",
+    "print_curves",
+    "white",
+    "ev",
+    "scene_white",
+    "film_format",
+    "grain",
+    "sharpness",
+    "halation",
+    "antihalation",
+    "seed",
+];
 /// The keys of the table `[first]`.
 const FIRST_KEYS: [&str; 5] = ["contrast", "brightness", "temperature", "saturation", "curve"];
 /// The keys that only data sheets of one's own need.
@@ -160,6 +179,7 @@ fn wrong_type(table: &toml::Table, written: &str) -> Option<String> {
         "neutral_density" | "overexposure" | "ev" | "contrast" | "brightness" | "temperature" | "saturation" => {
             "a number"
         }
+        "seed" => "a whole number from 0 to 4294967295",
         "points" | "beam_density" => "three numbers, red, green, blue",
         "filters" => "a list of words in quotes",
         "curve" => "a list of pairs: stops about mid grey, display-coded value",
@@ -255,7 +275,7 @@ mod tests {
         );
         let far = message("version = 2\nzzz = 3\n");
         assert!(far.starts_with("look.toml:2: unknown key \"zzz\", expected one of version, approach,"), "{far}");
-        assert!(message(&format!("version = 2\n{} = 3\n", "z".repeat(1000))).len() < 450);
+        assert!(message(&format!("version = 2\n{} = 3\n", "z".repeat(1000))).len() < 550);
         assert_eq!(
             message("version = 2\nprint = \"NONE\"\n"),
             "look.toml:2: print: found \"NONE\", expected the id of a print film, or none (did you mean \"none\"?)"

@@ -12,7 +12,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FormatVersion {
-    /// Without the keys `interimage`, `white`, `gamut` and `print_curves`: a film by its sheet alone, seen by the bare lamp, light
+    /// Without the keys `interimage`, `white`, `gamut`, `print_curves` and those of a film format: a film by its sheet alone, seen by the bare lamp, light
     /// outside the sRGB primaries clipped.
     One,
     /// The newest: with these keys.

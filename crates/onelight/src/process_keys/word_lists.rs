@@ -2,6 +2,7 @@
 
 use onelight_film::InterImage;
 use onelight_printing::Calibration;
+use onelight_spatial::{Antihalation, FilmFormat};
 use onelight_spectra::SceneWhite;
 
 use crate::error::{Error, ErrorKind};
@@ -51,6 +52,24 @@ pub(super) fn parse_scene_white(word: &str) -> Result<Option<SceneWhite>, Error>
         }
     };
     Ok(Some(SceneWhite::new(kelvin, tint)?))
+}
+
+/// What `film_format` is for a word: a name, a width, or `None` for `none`.
+pub(super) fn parse_film_format(word: &str) -> Result<Option<FilmFormat>, Error> {
+    match word {
+        "none" => Ok(None),
+        _ => Ok(Some(word.parse()?)),
+    }
+}
+
+/// What `antihalation` is for a word: a density, or `none`.
+pub(super) fn parse_antihalation(word: &str) -> Result<Antihalation, Error> {
+    let density = || word.parse().ok().filter(|d| (0.0..=Antihalation::MAX_DENSITY).contains(d));
+    let found = if word == "none" { Some(Antihalation::None) } else { density().map(Antihalation::Density) };
+    found.ok_or_else(|| {
+        let expected = format!("a density from 0 to {}, or none", Antihalation::MAX_DENSITY);
+        ErrorKind::Word { what: "antihalation", found: cut(word), expected }.into()
+    })
 }
 
 /// `filters`: a list of numbers as words.
@@ -122,6 +141,41 @@ pub(super) mod scene_white {
 
     pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<SceneWhite>, D::Error> {
         super::parse_scene_white(&String::deserialize(deserializer)?).map_err(de::Error::custom)
+    }
+}
+
+/// `film_format`: a name, a width such as `"24.9mm"`, or `"none"`.
+pub(super) mod film_format {
+    use onelight_spatial::FilmFormat;
+    use serde::{Deserialize, Deserializer, Serializer, de};
+
+    #[expect(clippy::ref_option, reason = "the signature serde asks for")]
+    pub(crate) fn serialize<S: Serializer>(format: &Option<FilmFormat>, serializer: S) -> Result<S::Ok, S::Error> {
+        match format {
+            Some(format) => serializer.collect_str(format),
+            None => serializer.serialize_str("none"),
+        }
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<FilmFormat>, D::Error> {
+        super::parse_film_format(&String::deserialize(deserializer)?).map_err(de::Error::custom)
+    }
+}
+
+/// `antihalation`: a density, or `"none"`.
+pub(super) mod antihalation {
+    use onelight_spatial::Antihalation;
+    use serde::{Deserialize, Deserializer, Serializer, de};
+
+    pub(crate) fn serialize<S: Serializer>(layer: &Antihalation, serializer: S) -> Result<S::Ok, S::Error> {
+        match layer {
+            Antihalation::Density(density) => serializer.collect_str(density),
+            Antihalation::None => serializer.serialize_str("none"),
+        }
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Antihalation, D::Error> {
+        super::parse_antihalation(&String::deserialize(deserializer)?).map_err(de::Error::custom)
     }
 }
 

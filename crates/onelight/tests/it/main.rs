@@ -6,6 +6,7 @@ mod baked;
 mod buffers;
 mod derived;
 mod direct;
+mod effects;
 mod films;
 mod laws;
 mod oracle;

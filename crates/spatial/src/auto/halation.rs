@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::{Decision, Effect};
@@ -41,9 +43,14 @@ impl HalationProbe {
     /// # Errors
     /// As [`HalationCells::add`].
     pub fn add(&mut self, exposures: &Planes) -> Result<(), Error> {
-        self.cells.add(exposures)?;
+        self.add_rows(exposures, exposures.rows())
+    }
+
+    /// Adds some of the rows of these planes.
+    pub(crate) fn add_rows(&mut self, exposures: &Planes, rows: Range<usize>) -> Result<(), Error> {
+        self.cells.add_rows(exposures, rows.clone())?;
         let [x, y] = self.cells.axes();
-        for row in exposures.rows() {
+        for row in rows {
             let [red, green, blue] = exposures.row(row);
             let start = y.cell_of(row) * x.count;
             for (cell, darkest) in self.darkest[start..start + x.count].iter_mut().enumerate() {

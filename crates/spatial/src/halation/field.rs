@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
 
@@ -101,7 +103,11 @@ impl HalationCells {
     /// # Errors
     /// If they are not the next rows, or not as wide as the picture.
     pub fn add(&mut self, exposures: &Planes) -> Result<(), Error> {
-        let rows = exposures.rows();
+        self.add_rows(exposures, exposures.rows())
+    }
+
+    /// Adds some of the rows of these planes.
+    pub(crate) fn add_rows(&mut self, exposures: &Planes, rows: Range<usize>) -> Result<(), Error> {
         let is_next = rows.start == self.next_row && rows.end <= self.frame.height();
         if !is_next || exposures.width() != self.frame.width() {
             let found = format!("rows {} to {} of {} pixels", rows.start, rows.end, exposures.width());

@@ -16,8 +16,8 @@ use crate::error::Error;
 use gaussians::smooth_gaussians;
 use spread::PointSpread;
 
-/// Densities of antihalation layers that are worked with: beyond, nothing returns that could be seen.
-const DENSITIES: [f64; 2] = [0.0, 3.0];
+/// Densities of antihalation layers that are worked with.
+const DENSITIES: [f64; 2] = [0.0, Antihalation::MAX_DENSITY];
 const SHARES: [f64; 2] = [0.0, 1.0];
 
 /// What keeps light from returning.
@@ -35,6 +35,9 @@ pub enum Antihalation {
 }
 
 impl Antihalation {
+    /// The largest density that is worked with: beyond, nothing returns that could be seen.
+    pub const MAX_DENSITY: f64 = 3.0;
+
     /// Density of the layer; 0 without one.
     #[must_use]
     pub fn density(self) -> f64 {

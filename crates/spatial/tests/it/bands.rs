@@ -1,7 +1,8 @@
 use onelight_spatial::{
     AmountGranularity, Antihalation, FilmFormat, Frame, Grain, GrainSettings, HaloField, Pitch, Planes, Sharpness,
-    SpatialStage,
+    SpatialStage, StageRun,
 };
+use rayon::prelude::*;
 
 use crate::film::stock;
 use crate::uniform::halation;
@@ -76,6 +77,57 @@ fn bands_and_threads_give_the_same_bytes() {
             assert!(alone.row(y) == whole.row(y), "{width}: row {y} alone");
         }
     }
+}
+
+#[test]
+fn a_run_down_the_picture_gives_the_same_bytes() {
+    for (width, effects) in [(2048, true), (4096, true), (12000, true), (4096, false)] {
+        let frame = Frame::new(SIZE, FilmFormat::Super35.pitch(width, 1.0).unwrap()).unwrap().at([301, 77]);
+        let stage = if effects { stage(frame) } else { SpatialStage::new(frame) };
+        let halo = || effects.then(|| halo(&stage, 64));
+        let whole = stage.amounts(&exposures(0..SIZE[1]), halo().as_ref(), 0..SIZE[1], &curve).unwrap();
+        for (band, at_least) in [(1, 1), (7, 40), (37, 1), (64, 64), (SIZE[1], 1)] {
+            let mut run = StageRun::new(stage.clone(), halo()).unwrap();
+            let mut done = 0;
+            for start in (0..SIZE[1]).step_by(band) {
+                let (planes, rows) = run.add(band.min(SIZE[1] - start)).unwrap();
+                let coming = exposures(rows.clone());
+                planes.par_rows_mut(rows.clone()).zip(rows).for_each(|(layers, y)| {
+                    layers.into_iter().zip(coming.row(y)).for_each(|(layer, from)| layer.copy_from_slice(from));
+                });
+                let ready = run.ready();
+                if ready == 0 || ready < at_least && start + band < SIZE[1] {
+                    continue;
+                }
+                let amounts = run.amounts(ready, &curve).unwrap();
+                for y in done..done + ready {
+                    assert!(amounts.row(y) == whole.row(y), "{width}: row {y} in bands of {band}");
+                }
+                done += ready;
+            }
+            assert_eq!(done, SIZE[1], "{width}: bands of {band}");
+            assert!(run.add(1).is_err() && run.amounts(1, &curve).is_err());
+        }
+    }
+}
+
+#[test]
+fn rows_that_are_not_there_have_no_amounts() {
+    let frame = Frame::new(SIZE, FilmFormat::Super35.pitch(4096, 1.0).unwrap()).unwrap();
+    let message = StageRun::new(stage(frame), None).unwrap_err().to_string();
+    assert!(message.starts_with("halo: found none"), "{message}");
+    let sharp = SpatialStage::new(frame).with_sharpness(&Sharpness::of_stock(&stock("kodak-5207")).unwrap());
+    let mut run = StageRun::new(sharp, None).unwrap();
+    assert_eq!(run.ready(), 0);
+    assert_eq!(
+        run.add(300).unwrap_err().to_string(),
+        "exposures: found 300 rows, expected 1 to 259, which the picture has left"
+    );
+    run.add(100).unwrap();
+    let ready = run.ready();
+    assert!((1..90).contains(&ready), "{ready} of 100 rows, as those below need others");
+    let message = run.amounts(ready + 1, &curve).unwrap_err().to_string();
+    assert_eq!(message, format!("amounts: found {} rows, expected 1 to {ready}, which are ready", ready + 1));
 }
 
 #[test]

@@ -69,6 +69,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     for (place, table) in tables.iter().enumerate() {
         text.push_str(&table.text(place == 0));
     }
+    if let Some(note) = beyond_colour(process) {
+        let _ = writeln!(text, "  note: {note}");
+    }
     if arguments.quick {
         text.push_str("not certified: how far it lies from the film was not measured (leave out --quick)\n");
     }
@@ -193,6 +196,14 @@ impl Table {
         }
         json
     }
+}
+
+/// What a look has that no table can.
+fn beyond_colour(process: &Process) -> Option<String> {
+    let Process::Film(film) = process else { return None };
+    film.effects.film_format.map(|format| {
+        format!("film_format {format}: sharpness, halation and grain depend on more than a pixel and are in no LUT (develop has them)")
+    })
 }
 
 /// Why a `.cube` with a wide range is no good: its certificate shows it, a quick bake has none.

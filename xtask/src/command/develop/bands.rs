@@ -15,43 +15,44 @@ pub(crate) struct Busy {
     pub(crate) writing: Duration,
 }
 
-/// Moves a picture through `develop` into `sink`; memory is that of three bands.
+/// Moves a picture through `develop` into `sink`. `develop` is given bands from top to bottom and adds those that it is done with to the
+/// ones that are to be written, in the same order, all of them once it has the last. Memory is that of three bands and those that
+/// `develop` keeps.
 ///
 /// # Errors
-/// What reading says, as [`NotOfThisFile`], and what writing says.
+/// What reading says, as [`NotOfThisFile`], what `develop` says, and what writing says.
 pub(super) fn pass(
     picture: &mut PictureReader<'_>,
-    mut develop: impl FnMut(&mut Band) + Send,
+    mut develop: impl FnMut(Band, &mut Vec<Band>) -> Result<()> + Send,
     sink: &mut dyn BandSink,
 ) -> Result<Busy> {
     let mut busy = Busy::default();
-    let [mut coming, mut here, mut going] = <[Band; 3]>::default();
+    let (mut going, mut spare): (Vec<Band>, Vec<Band>) = (Vec::new(), Vec::new());
     let mut read =
         |band: &mut Band| picture.next_into(band).map_err(|error| anyhow::Error::new(NotOfThisFile(error.into())));
+    let mut here = Band::default();
     timed(&mut busy.reading, || read(&mut here))?;
     loop {
         let last = here.rows() == 0;
         let Busy { reading, developing, writing } = &mut busy;
-        let ((was_read, ()), written) = rayon::join(
+        let (mut coming, mut done) = (spare.pop().unwrap_or_default(), Vec::new());
+        let ((was_read, developed), written) = rayon::join(
             || {
                 rayon::join(
                     || if last { Ok(()) } else { timed(reading, || read(&mut coming)) },
-                    || {
-                        if !last {
-                            timed(developing, || develop(&mut here));
-                        }
-                    },
+                    || if last { Ok(()) } else { timed(developing, || develop(here, &mut done)) },
                 )
             },
-            || if going.rows() == 0 { Ok(()) } else { timed(writing, || sink.write(going.view())) },
+            || timed(writing, || going.iter().try_for_each(|band| sink.write(band.view()))),
         );
         was_read?;
+        developed?;
         written?;
         if last {
             return Ok(busy);
         }
-        std::mem::swap(&mut going, &mut here);
-        std::mem::swap(&mut here, &mut coming);
+        spare.append(&mut going);
+        (going, here) = (done, coming);
     }
 }
 

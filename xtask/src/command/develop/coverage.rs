@@ -48,6 +48,11 @@ impl CoverageSeen {
         *self = self.with(seen.reduce(Self::default, Self::with));
     }
 
+    /// Whether every pixel is covered, at least in part.
+    pub(super) fn covers_all(&self) -> bool {
+        self.covered == self.pixels
+    }
+
     /// What both saw.
     fn with(self, other: Self) -> Self {
         Self {

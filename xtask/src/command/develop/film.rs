@@ -1,10 +1,10 @@
 //! The film in the form that was asked for.
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use clap::ValueEnum;
 use indicatif::ProgressBar;
 use onelight::baked::{self, Baked, Recipe, ShaperChoice};
-use onelight::{Look, Process, Reference, Uncertainty, WideGamut};
+use onelight::{FilmEffects, FilmSteps, Look, Process, Reference, Uncertainty, WideGamut};
 use onelight_picture::Band;
 use rayon::prelude::*;
 
@@ -42,6 +42,8 @@ pub(crate) struct Film {
     baked: Option<Baked>,
     /// What takes the picture's place, where a map of it is asked for.
     uncertainty: Option<Uncertainty>,
+    /// What the camera film does to pictures, where the look has a film format.
+    effects: Option<FilmEffects>,
     form: Form,
 }
 
@@ -61,7 +63,21 @@ impl Film {
             _ => Recipe::of(form),
         };
         let baked = baked.map(|form| exact.baked(&recipe(form))).transpose()?;
-        Ok(Self { exact, baked, uncertainty: None, form })
+        let film = Self { exact, baked, uncertainty: None, effects: look.effects()?, form };
+        if film.effects.is_some() {
+            film.steps().context("--film-format")?;
+        }
+        Ok(film)
+    }
+
+    /// The film in three steps, for what happens to a picture between them.
+    pub(super) fn steps(&self) -> Result<FilmSteps<'_>> {
+        Ok(FilmSteps::of(&self.exact, self.baked.as_ref())?)
+    }
+
+    /// What the camera film does to pictures, where the look has a film format.
+    pub(super) fn effects(&self) -> Option<&FilmEffects> {
+        self.effects.as_ref()
     }
 
     /// A map of what the look is uncertain by, in place of its picture: red the whole CIEDE2000, green what of it the sheets make,
@@ -74,7 +90,7 @@ impl Film {
             Some(films) => Uncertainty::with(process, films)?,
             None => Uncertainty::new(process)?,
         };
-        Ok(Self { exact: look.look()?, baked: None, uncertainty: Some(found), form: Form::Reference })
+        Ok(Self { exact: look.look()?, baked: None, uncertainty: Some(found), effects: None, form: Form::Reference })
     }
 
     /// The exact look.

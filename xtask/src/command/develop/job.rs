@@ -1,11 +1,12 @@
 //! One picture, from file to file.
 
+use std::collections::VecDeque;
 use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail};
 use indicatif::ProgressBar;
 use onelight::spectra::Chromaticity;
-use onelight::{Process, TransferCurve};
+use onelight::{EffectsRun, FirstLook, Process, TransferCurve};
 use onelight_picture::{
     Band, BandSink, Channels, Chromaticities, ColourTag, Description, JpegSettings, Limits, Metadata, OutputTransfer,
     PictureReader, PngSettings, TiffSettings, write_jpeg, write_png, write_tiff,
@@ -18,6 +19,7 @@ use super::exposure::{Exposure, Meter};
 use super::film::Film;
 use super::input::InputSettings;
 use super::light::Light;
+use super::on_film::OnFilm;
 use super::output::{KeptMetadata, Target};
 use crate::atomic_file::write_atomically;
 use crate::exposure::SceneExposure;
@@ -33,6 +35,8 @@ pub(super) struct Settings {
     pub(super) scene: SceneExposure,
     /// Which picture comes in, and what its numbers mean.
     pub(super) input: InputSettings,
+    /// Where the picture lies on the film.
+    pub(super) on_film: OnFilm,
     pub(super) target: Target,
     pub(super) metadata: KeptMetadata,
     pub(super) limits: Limits,
@@ -55,6 +59,8 @@ pub(super) struct Developed {
 pub(super) struct Order<'a> {
     pub(super) input: &'a Path,
     pub(super) output: &'a Path,
+    /// Its number in a sequence: each has grain of its own.
+    pub(super) number: u32,
     /// Written into the output, to be known again by.
     pub(super) digest: Option<&'a str>,
 }
@@ -65,8 +71,8 @@ const LOOK_KEY: &str = "onelight look";
 pub(super) const DIGEST_KEY: &str = "onelight job";
 
 /// Develops the picture in one file into another. May run beside others: it holds three bands of each picture (see
-/// [`pass`]), and the threads are shared. `progress` counts rows, those of a first look for [`Exposure::Auto`] too;
-/// `watch` sees each band of scene light before the film gets it.
+/// [`pass`]), with sharpness those about them too, and the threads are shared. `progress` counts rows, those of a first look for
+/// [`Exposure::Auto`] or for effects too; `watch` sees each band of scene light before the film gets it.
 ///
 /// # Errors
 /// One sentence that starts with the path it is about; then `output` is as it was before.
@@ -97,6 +103,7 @@ pub(super) fn develop_picture(
         }
         Ok(again)
     };
+    let mut is_covered = true;
     if description.channels == Channels::Rgba {
         let mut seen = CoverageSeen::default();
         look_through(&mut picture, |band| seen.add(band))?;
@@ -105,18 +112,23 @@ pub(super) fn develop_picture(
             notes.push("a JPEG has no alpha: developed over black (--background chooses another)".to_owned());
             light.coverage = Coverage::Over([0.0; 3], description.stored_alpha);
         }
+        is_covered = light.coverage != Coverage::Kept || seen.covers_all();
         picture = reopened()?;
     }
     let height = description.height as u64;
+    let look_at = |effects| {
+        let frame = settings.on_film.frame(effects, &description, order.number)?;
+        anyhow::Ok(effects.look_at(film.steps()?, frame)?)
+    };
+    let first_look = film.effects().map(look_at).transpose().with_context(|| input.display().to_string())?;
+    let looks =
+        u64::from(*exposure == Exposure::Auto) + u64::from(first_look.as_ref().is_some_and(FirstLook::needs_picture));
+    progress.set_length((1 + looks) * height);
 
     let mut meter = Meter::default();
     let ev = match *exposure {
-        Exposure::Stops(stops) => {
-            progress.set_length(height);
-            stops
-        }
+        Exposure::Stops(stops) => stops,
         Exposure::Auto => {
-            progress.set_length(2 * height);
             look_through(&mut picture, |band| {
                 light.measure(band, &mut meter);
                 progress.inc(band.rows() as u64);
@@ -125,12 +137,46 @@ pub(super) fn develop_picture(
             meter.auto()
         }
     };
+    let mut effects = None;
+    if let Some(mut first_look) = first_look {
+        if first_look.needs_picture() {
+            let mut seen = Ok(());
+            look_through(&mut picture, |band| {
+                light.expose(band, ev, None);
+                if seen.is_ok() {
+                    seen = first_look.add(band.rgb());
+                }
+                progress.inc(band.rows() as u64);
+            })?;
+            seen?;
+            picture = reopened()?;
+        }
+        let run = first_look.finish()?;
+        notes.extend(run.reasons().iter().cloned());
+        if run.runs_any() {
+            if !is_covered {
+                notes.push(
+                    "the picture keeps its alpha: where it covers nothing, the light that is stored there, mostly black, meets the film \
+                     (--background lays it over what is behind it)"
+                        .to_owned(),
+                );
+            }
+            effects = Some(BandsOnFilm { run, waiting: VecDeque::new() });
+        }
+    }
     let mut beyond = 0;
-    let develop = |band: &mut Band| {
-        light.expose(band, ev, (*exposure != Exposure::Auto).then_some(&mut meter));
-        beyond += film.max().map_or(0, |max| brighter(band, max));
-        watch(&description, band);
-        film.develop(band, progress);
+    let develop = |mut band: Band, done: &mut Vec<Band>| {
+        light.expose(&mut band, ev, (*exposure != Exposure::Auto).then_some(&mut meter));
+        beyond += film.max().map_or(0, |max| brighter(&band, max));
+        watch(&description, &band);
+        match &mut effects {
+            Some(effects) => effects.develop(band, done, progress),
+            None => {
+                film.develop(&mut band, progress);
+                done.push(band);
+                Ok(())
+            }
+        }
     };
     let mut developed = Description { channels: light.coverage.channels(&description), ..description.clone() };
     if settings.metadata == KeptMetadata::None {
@@ -166,6 +212,28 @@ pub(super) fn open_input(settings: &Settings, input: &Path) -> Result<PictureRea
             _ => error,
         }
     })
+}
+
+/// The bands of a picture whose film does more than change colours: each waits for those below it.
+struct BandsOnFilm<'a> {
+    run: EffectsRun<'a>,
+    waiting: VecDeque<Band>,
+}
+
+impl BandsOnFilm<'_> {
+    /// Takes a band of scene light, and adds those that can be developed now to `done`.
+    fn develop(&mut self, band: Band, done: &mut Vec<Band>, progress: &ProgressBar) -> Result<()> {
+        self.run.add(band.rgb())?;
+        self.waiting.push_back(band);
+        let mut ready = self.run.ready();
+        while let Some(mut band) = self.waiting.pop_front_if(|band| band.rows() <= ready) {
+            self.run.develop(band.rgb_mut())?;
+            ready -= band.rows();
+            progress.inc(band.rows() as u64);
+            done.push(band);
+        }
+        Ok(())
+    }
 }
 
 /// Pixels with a channel over `max`.

@@ -5,6 +5,7 @@ mod film;
 mod input;
 mod job;
 mod light;
+mod on_film;
 mod output;
 mod paths;
 mod sample;
@@ -23,6 +24,7 @@ use self::exposure::Exposure;
 use self::film::{Film, Form};
 use self::input::InputArguments;
 use self::job::{Developed, Order, Settings, develop_picture};
+use self::on_film::OnFilm;
 use self::output::{OutputArguments, Target};
 use self::paths::same_file;
 use self::sample::Sample;
@@ -58,6 +60,8 @@ pub(crate) struct Arguments {
     form: Option<Form>,
     #[command(flatten)]
     picture: InputArguments,
+    #[command(flatten)]
+    on_film: OnFilm,
     #[command(flatten)]
     out: OutputArguments,
     /// Also write an EXR map of what the look is uncertain by, as CIEDE2000: red all of it, green what the data sheets make, blue
@@ -147,6 +151,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         exposure: arguments.ev.unwrap_or_default(),
         scene,
         input,
+        on_film: arguments.on_film,
         target,
         metadata: arguments.out.metadata.unwrap_or_default(),
         limits: Limits {
@@ -155,6 +160,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
             ..Limits::default()
         },
     };
+    settings.on_film.check(settings.film.effects())?;
     let output = folders::shown(&arguments.output);
     if let Some(map) = &arguments.uncertainty {
         check_map(map, arguments, plan.is_some())?;
@@ -166,7 +172,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     }
     atomic_file::remove_leftovers([arguments.output.as_path()]);
     let progress = bar("developing", 0);
-    let order = Order { input: &arguments.input, output: &arguments.output, digest: None };
+    let order = Order { input: &arguments.input, output: &arguments.output, number: 0, digest: None };
     let mut sample = Sample::new(&settings.film);
     let watch = |picture: &Description, band: &Band| sample.look_at([picture.width, picture.height], band);
     let developed = clock.time("develop", || develop_picture(&settings, &order, &progress, watch));
@@ -178,7 +184,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         settings.film = Film::uncertainty(&settings.look)?;
         (settings.exposure, settings.target) = (Exposure::Stops(ev), Target::Exr);
         let progress = bar("uncertainty", 0);
-        let order = Order { input: &arguments.input, output: map, digest: None };
+        let order = Order { input: &arguments.input, output: map, number: 0, digest: None };
         let mapped = clock.time("uncertainty", || develop_picture(&settings, &order, &progress, |_, _| {}));
         progress.finish_and_clear();
         mapped?;

@@ -1,8 +1,8 @@
 //! Descriptions of looks: any text is read or refused, and what is read compiles or says why it does not.
 
 use onelight::{
-    Aim, Approach, DyeModel, HeatGlass, Infrared, Matching, PrinterLight, Process, ProcessKeys, Projector,
-    Reconstruction, Tail, TransferCurve, Word, WorkingSpace,
+    Aim, Approach, DyeModel, EffectChoice, HeatGlass, Infrared, Matching, PrinterLight, Process, ProcessKeys,
+    Projector, Reconstruction, Tail, TransferCurve, Word, WorkingSpace,
 };
 use proptest::prelude::*;
 
@@ -97,6 +97,11 @@ fn keys() -> Vec<BoxedStrategy<Option<String>>> {
         line("glass", words::<HeatGlass>()),
         line("red_tail", words::<Tail>()),
         line("projector", words::<Projector>()),
+        line("film_format", prop_oneof![Just("\"super16\"".to_owned()), Just("\"none\"".to_owned())].boxed()),
+        line("grain", words::<EffectChoice>()),
+        line("sharpness", words::<EffectChoice>()),
+        line("halation", words::<EffectChoice>()),
+        line("seed", prop_oneof![3 => Just("0".to_owned()), 1 => (0u32..).prop_map(|n| n.to_string())].boxed()),
         line("input_space", words::<WorkingSpace>()),
         line("output_space", words::<WorkingSpace>()),
         line("output_coding", words::<TransferCurve>()),

@@ -68,6 +68,7 @@ fn film() -> impl Strategy<Value = FilmProcess> {
                 gamut,
                 projector,
                 white,
+                effects: usual.effects,
                 spaces: ColourSpaces {
                     input_space: spaces.0,
                     output_space: spaces.1,

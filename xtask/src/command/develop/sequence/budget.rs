@@ -3,8 +3,10 @@
 use std::str::FromStr;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
+use anyhow::Result;
 use onelight_picture::{PictureReader, PngBits, TiffBits};
 
+use super::super::job::Settings;
 use super::super::output::Target;
 
 /// How much memory frames may take together.
@@ -57,6 +59,16 @@ pub(super) fn needed(picture: &PictureReader<'_>, target: Target) -> u64 {
     let for_each_pixel = bands * 4 * samples + 8 + written;
     let whole = if matches!(target, Target::Jpeg(..)) { 3 * description.pixels() } else { 0 };
     memory.band_pixels.saturating_mul(for_each_pixel).saturating_add(memory.bytes_beside).saturating_add(whole)
+}
+
+/// What sharpness, halation and grain take beside.
+///
+/// # Errors
+/// If the picture cannot be that large or small on the film.
+pub(super) fn needed_by_effects(picture: &PictureReader<'_>, settings: &Settings, number: u32) -> Result<u64> {
+    let Some(effects) = settings.film.effects() else { return Ok(0) };
+    let frame = settings.on_film.frame(effects, picture.description(), number)?;
+    Ok(effects.bytes(&frame, picture.memory().band_pixels))
 }
 
 /// Lets frames begin as long as there is room, and a frame that is larger than all of it alone.

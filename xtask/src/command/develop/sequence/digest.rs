@@ -10,6 +10,7 @@ use onelight::Look;
 use sha2::{Digest, Sha256};
 
 use super::super::job::{DIGEST_KEY, Settings};
+use super::plan::Frame;
 use crate::own_stock::hex;
 use crate::picture_file::text_of_complete_picture;
 
@@ -24,7 +25,7 @@ impl Recipe {
     /// # Errors
     /// Those of compiling the look.
     pub(super) fn new(settings: &Settings) -> Result<Self> {
-        let Settings { look, film, exposure, scene, input, target, metadata, limits: _ } = settings;
+        let Settings { look, film, exposure, scene, input, on_film, target, metadata, limits: _ } = settings;
         let mut text = String::new();
         let mut line = |key: &str, value: &dyn std::fmt::Display| {
             let _ = writeln!(text, "{key}: {value}");
@@ -35,6 +36,9 @@ impl Recipe {
         line("exposure", &format_args!("{exposure:?}"));
         line("scene", &scene.in_numbers());
         line("input", &format_args!("{input:?}"));
+        // Figures of the sheet that colours do not show.
+        line("effects", &format_args!("{:?}", film.effects()));
+        line("on film", &format_args!("{on_film:?}"));
         line("target", &format_args!("{target:?}"));
         line("metadata", &format_args!("{metadata:?}"));
         // Data sheets of one's own count by their digests, wherever they are.
@@ -42,18 +46,19 @@ impl Recipe {
         Ok(Self(text))
     }
 
-    /// The digest of one frame: the recipe, and the input's name, size and time.
+    /// The digest of one frame: the recipe, its number, and the input's name, size and time.
     ///
     /// # Errors
     /// If the file cannot be asked.
-    pub(super) fn digest(&self, input: &Path) -> io::Result<String> {
+    pub(super) fn digest(&self, frame: &Frame) -> io::Result<String> {
+        let Frame { input, number, .. } = frame;
         let found = fs::metadata(input)?;
         let time = match found.modified()?.duration_since(UNIX_EPOCH) {
             Ok(after) => format!("{after:?}"),
             Err(before) => format!("-{:?}", before.duration()),
         };
         let name = input.file_name().unwrap_or_default();
-        Ok(hex(&Sha256::digest(format!("{}input: {name:?}, {} bytes, {time}\n", self.0, found.len()))))
+        Ok(hex(&Sha256::digest(format!("{}input: {number}, {name:?}, {} bytes, {time}\n", self.0, found.len()))))
     }
 }
 

@@ -14,6 +14,8 @@ use super::pattern::{Pattern, Piece, Place};
 pub(super) struct Frame {
     pub(super) input: PathBuf,
     pub(super) output: PathBuf,
+    /// Its number in the shot; 0 for pictures that have names.
+    pub(super) number: u32,
 }
 
 /// The pictures of a job, in order.
@@ -81,8 +83,12 @@ pub(crate) fn plan(
     if numbers.is_none() {
         notes.extend(gaps(&pieces));
     }
-    let frames: Vec<Frame> =
-        pieces.iter().map(|piece| Frame { input: there(&from, piece), output: to.path(piece) }).collect();
+    let number = |piece: &Piece| match piece {
+        Piece::Number(number) => number.cast_unsigned(),
+        Piece::Name(_) => 0,
+    };
+    let frame = |piece| Frame { input: there(&from, piece), output: to.path(piece), number: number(piece) };
+    let frames: Vec<Frame> = pieces.iter().map(frame).collect();
     if same_folder(&from, &to) {
         check_apart(&frames)?;
     }

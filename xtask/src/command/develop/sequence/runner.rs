@@ -13,7 +13,7 @@ use indicatif::ProgressBar;
 
 use super::super::job::{Order, Settings, develop_picture, open_input};
 use super::super::paths::same_file;
-use super::budget::{Budget, needed};
+use super::budget::{Budget, needed, needed_by_effects};
 use super::digest::{Recipe, is_done};
 use super::outcome::Outcome;
 use super::plan::Frame;
@@ -64,17 +64,19 @@ fn take<'a>(next: &AtomicUsize, frames: &'a [Frame]) -> Option<(usize, &'a Frame
 fn develop_frame(settings: &Settings, recipe: &Recipe, frame: &Frame, budget: &Budget) -> Outcome {
     let attempt = || -> Result<Outcome> {
         // Before the file is read: if it changes meanwhile, the next run sees it.
-        let digest = recipe.digest(&frame.input);
+        let digest = recipe.digest(frame);
         if digest.as_ref().is_ok_and(|digest| is_done(&frame.output, digest)) {
             return Ok(Outcome::AlreadyDone);
         }
-        let bytes = needed(&open_input(settings, &frame.input)?, settings.target);
+        let picture = open_input(settings, &frame.input)?;
+        let bytes =
+            needed(&picture, settings.target).saturating_add(needed_by_effects(&picture, settings, frame.number)?);
         let digest = digest.map_err(|error| anyhow::anyhow!("{}: cannot be read: {error}", frame.input.display()))?;
         if same_file(&frame.input, &frame.output) {
             anyhow::bail!("{}: the output would replace the picture it is made from", frame.output.display());
         }
         let _room = budget.take(bytes);
-        let order = Order { input: &frame.input, output: &frame.output, digest: Some(&digest) };
+        let order = Order { input: &frame.input, output: &frame.output, number: frame.number, digest: Some(&digest) };
         develop_picture(settings, &order, &ProgressBar::hidden(), |_, _| {}).map(Outcome::Developed)
     };
     match catch_unwind(AssertUnwindSafe(attempt)) {
