@@ -23,16 +23,18 @@ OCIO, FILM_LUT, COPY, PLAIN = "OpenColorIO", "spectral-film-lut", "copy of the f
 PLAIN_F32, PLAIN_U8 = "plain, f32 to f32", "plain, f32 to u8"
 STRUCTURED, DISPLAY = "structured, f32 to f32", "structured of display entries, f32 to f32"
 DIRECT = "direct, f32 to f32"
+# The same with layers that do not inhibit each other.
+STRUCTURED_ALONE, DIRECT_ALONE = "structured without inter-image, f32 to f32", "direct without inter-image, f32 to f32"
 BAKE, BAKE_FORM, BAKE_EXACT = "bake 33^3", "bake 33^3, its form made before", "bake 33^3, reference"
 FILE = "bake 33^3 to .cube"
 TARGETS = [
     Target("plain f32 to f32, one thread, times OpenColorIO", (PLAIN_F32, OCIO, True, "warm"), 2.2, "faster"),
     Target("plain f32 to RGBA8, one thread, times OpenColorIO", (PLAIN_U8, OCIO, True, "warm"), 3, "faster"),
-    Target("plain f32 to RGBA8, all cores, in copies", (PLAIN_U8, COPY, False, "warm"), 3, "cost"),
-    Target("structured f32 to f32, one thread, in plain", (STRUCTURED, PLAIN, True, "warm"), 2, "cost"),
-    Target("the same of display entries", (DISPLAY, PLAIN, True, "warm"), 2, "cost"),
-    Target("direct f32 to f32, one thread, in plain", (DIRECT, PLAIN, True, "warm"), 10, "cost"),
-    Target("the same, as aimed for", (DIRECT, PLAIN, True, "warm"), 4, "cost"),
+    Target("plain f32 to RGBA8, all cores, in copies", (PLAIN_U8, COPY, False, "warm"), 1.5, "cost"),
+    Target("structured without inter-image, in OpenColorIO's time", (STRUCTURED_ALONE, OCIO, True, "warm"), 1, "cost"),
+    Target("direct without inter-image, in OpenColorIO's time", (DIRECT_ALONE, OCIO, True, "warm"), 1.4, "cost"),
+    Target("structured with inter-image, in it without", (STRUCTURED, STRUCTURED_ALONE, True, "warm"), 1.15, "cost"),
+    Target("direct with inter-image, in it without", (DIRECT, DIRECT_ALONE, True, "warm"), 1.15, "cost"),
     Target("bake 33^3, one thread, times spectral-film-lut", (BAKE_FORM, FILM_LUT, True, "warm"), 10, "faster"),
     Target("whole process to .cube, times spectral-film-lut", (FILE, FILM_LUT, False, "process"), 70, "faster"),
 ]
@@ -48,6 +50,7 @@ class Run:
     def __init__(self, arguments, folder):
         self.folder = folder
         self.width, self.height = (960, 540) if arguments.quick else (3840, 2160)
+        self.level = arguments.level
         self.rounds = 3 if arguments.quick else 15
         self.fresh = 1 if arguments.quick else 3
         self.cpus = allowed_cpus()
@@ -67,6 +70,8 @@ class Run:
     def ours(self, threads):
         child = Child("onelight", [self.peer], self.cpus_for(threads))
         child.ask("threads", threads)
+        if self.level:
+            child.ask("level", self.level)
         return child
 
     def opencolorio(self, threads):
@@ -122,12 +127,21 @@ class Run:
             for kind in ["f32", "u8"]:
                 copy()
                 self.add(PLAIN_JOBS[kind], COPY, threads, "warm", *self.turns(apply("plain", kind), copy), pixels)
-            for form, job in [("structured", STRUCTURED), ("display", DISPLAY), ("direct", DIRECT)]:
+            theirs.ask("build", "f32")
+            forms = [("structured", STRUCTURED), ("display", DISPLAY), ("direct", DIRECT)]
+            alone = [("structured-uncoupled", STRUCTURED_ALONE), ("direct-uncoupled", DIRECT_ALONE)]
+            for form, job in forms + alone:
                 self.say(f"making the {form} form")
                 ours.ask("build", form)
                 apply(form, "f32")()
                 times = self.turns(apply(form, "f32"), apply("plain", "f32"))
                 self.add(job, PLAIN, threads, "warm", *times, pixels)
+            for form, job in alone:
+                times = self.turns(apply(form, "f32"), lambda: theirs.ask("apply", "f32", 1))
+                self.add(job, OCIO, threads, "warm", *times, pixels)
+            for (form, job), (without, job_without) in [(forms[0], alone[0]), (forms[2], alone[1])]:
+                times = self.turns(apply(form, "f32"), apply(without, "f32"))
+                self.add(job, job_without, threads, "warm", *times, pixels)
 
     def cold_pictures(self, threads):
         for kind in ["f32", "u8"]:
@@ -201,6 +215,8 @@ class Run:
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true", help="a small picture, few turns: whether it runs")
+    help = "the vector instructions that ours has to do with, such as AVX2; the best of the machine if not given"
+    parser.add_argument("--level", metavar="NAME", help=help)
     arguments = parser.parse_args()
 
     # Before building, which loads the machine itself.
@@ -213,6 +229,7 @@ def main():
             "machine": environment.machine(run.cpus),
             "versions": environment.versions(run.python),
             "quick": arguments.quick,
+            "level": arguments.level,
             "picture": {"width": run.width, "height": run.height, "channels": "RGBA"},
         }
         run.all()
@@ -226,7 +243,8 @@ def main():
     print(f"{machine['cpu']}, {machine['cores']} cores; {report['date']}\n{versions}")
     if load and load[0] > 0.5:
         print(f"Other programs were running: load {load[0]:.1f} before the first turn.")
-    print(f"{run.width}x{run.height} RGBA, medians of turns\n\n{results.table(run.rows)}\n\n{results.verdicts(judged)}")
+    level = f"; ours by {run.level}" if run.level else ""
+    print(f"{run.width}x{run.height} RGBA, medians of turns{level}\n\n{results.table(run.rows)}\n\n{results.verdicts(judged)}")
     for note in notes:
         print(f"note: {note}")
     print(f"\n{path.relative_to(environment.TOP)}")

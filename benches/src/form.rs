@@ -1,6 +1,6 @@
 use onelight::Look;
 use onelight::baked::{BakedForm, Recipe};
-use onelight_lut::{DirectForm, Lut3d, PixelMap, Pixels, PixelsMut, PlainLut, Sample, StructuredLut};
+use onelight_lut::{DirectForm, Lut3d, PixelMap, Pixels, PixelsMut, PlainLut, Sample, SimdLevel, StructuredLut};
 
 use crate::error::{Error, Result};
 
@@ -46,10 +46,23 @@ impl Form {
         from: &Pixels<'_, f32>,
         to: &mut PixelsMut<'_, T>,
     ) -> std::result::Result<(), onelight_lut::Error> {
+        self.map_on(SimdLevel::best(), from, to)
+    }
+
+    /// The same as [`Form::map`], by the instructions of one level.
+    ///
+    /// # Errors
+    /// If the sizes differ.
+    pub fn map_on<T: Sample>(
+        &self,
+        level: SimdLevel,
+        from: &Pixels<'_, f32>,
+        to: &mut PixelsMut<'_, T>,
+    ) -> std::result::Result<(), onelight_lut::Error> {
         match self {
-            Self::Plain(lut) => lut.map(from, to),
-            Self::Structured(lut) => lut.map(from, to),
-            Self::Direct(form) => form.map(from, to),
+            Self::Plain(lut) => lut.map_on(level, from, to),
+            Self::Structured(lut) => lut.map_on(level, from, to),
+            Self::Direct(form) => form.map_on(level, from, to),
         }
     }
 

@@ -139,6 +139,7 @@ fn studies(body: &mut String, contents: &Contents) {
     list(body, &words::growth(growth));
     body.push_str(&table::growth("Milliseconds for a picture, one thread", "megapixels", &growth.picture));
     body.push_str(&table::growth("Nanoseconds a pixel, one thread", "nodes along a side", &growth.table));
+    body.push_str(&table::effects(&growth.effects));
     body.push_str(&table::growth("Megapixels a second", "threads", &growth.threads));
 }
 

@@ -6,7 +6,7 @@ use super::forms::sum;
 use super::measure::{Look, Row};
 use super::peers::Peer;
 use super::stopwatch::Timing;
-use super::studies::{CurveRow, ExposureRow, GridRow, Measured};
+use super::studies::{CurveRow, EffectRow, ExposureRow, GridRow, Measured};
 use super::text::{bytes, escaped, figure, plain};
 
 /// A cell: what is written, and the number that it is sorted by.
@@ -162,6 +162,25 @@ pub(super) fn curves(rows: &[CurveRow]) -> String {
         .map(|row| vec![Cell::count(row.points), Cell::figure(row.miss.mean), Cell::figure(row.miss.max)])
         .collect();
     table("Curves as tables, read linearly", &["points", "mean dE", "max dE"], &rows)
+}
+
+/// What effects of the film add: nanoseconds, and parts of the time without any.
+pub(super) fn effects(rows: &[EffectRow]) -> String {
+    let Some(EffectRow { structured, direct, .. }) = rows.first() else { return String::new() };
+    let rows: Vec<Vec<Cell>> = rows
+        .iter()
+        .map(|row| {
+            vec![
+                Cell::Text(row.effects.to_owned()),
+                Cell::figure(row.structured.ns),
+                Cell::figure(row.structured.ns / structured.ns),
+                Cell::figure(row.direct.ns),
+                Cell::figure(row.direct.ns / direct.ns),
+            ]
+        })
+        .collect();
+    let columns = ["effects", "structured (ns)", "of none", "direct (ns)", "of none"];
+    table("Effects of the film, nanoseconds a pixel, one thread", &columns, &rows)
 }
 
 pub(super) fn buffers(steps: &[(&'static str, f64)]) -> String {

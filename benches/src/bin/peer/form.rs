@@ -1,7 +1,8 @@
 use std::error::Error;
 
-use onelight::{DirectSettings, Reference, StructuredSettings, TableCoding};
-use onelight_benches::{Form, PLAIN_SIZE, shaper};
+use onelight::film::InterImage;
+use onelight::{DirectSettings, FilmProcess, InterImageChoice, Reference, StructuredSettings, TableCoding};
+use onelight_benches::{Form, NEGATIVE, PLAIN_SIZE, shaper};
 use onelight_lut::{DirectForm, Interpolation, Lut3d, PlainLut, bake, bake_form};
 
 /// From the entries of a table that was baked before.
@@ -18,6 +19,12 @@ pub(crate) fn structured(film: &Reference, coding: TableCoding) -> Result<Form, 
 /// The usual direct form.
 pub(crate) fn direct(film: &Reference) -> Result<Form, Box<dyn Error>> {
     Ok(Form::Direct(Box::new(film.direct(&DirectSettings::default())?)))
+}
+
+/// The film that all of this is made of, its layers acting each for itself.
+pub(crate) fn uncoupled_film() -> Result<Reference, Box<dyn Error>> {
+    let inter_image = InterImageChoice::Fixed(InterImage::NONE);
+    Ok(FilmProcess { inter_image, ..FilmProcess::for_camera(NEGATIVE)? }.compile()?)
 }
 
 /// How the nodes of a plain table are computed.

@@ -5,8 +5,9 @@
 //! |---|---|---|
 //! | `make FOLDER WIDTH HEIGHT` | writes the picture and the plain table as bare little-endian float32 | nodes a side, the shaper's offset and maximum |
 //! | `threads N` | starts a pool of that many | |
+//! | `level NAME` | maps pictures by these vector instructions (`AVX2`), not by the best there are | |
 //! | `read FOLDER WIDTH HEIGHT` | loads what `make` wrote | |
-//! | `build FORM` | `plain` from the table that was read, `structured`, `display` (that of display entries) and `direct` from the film | time |
+//! | `build FORM` | `plain` from the table that was read, `structured`, `display` (that of display entries) and `direct` from the film, `structured-uncoupled` and `direct-uncoupled` from the film without inter-image effects | time |
 //! | `apply FORM TYPE RUNS` | the whole picture through a form to `f32` or `u8` RGBA | time of each run |
 //! | `copy RUNS` | copies the picture | time of each run |
 //! | `save TYPE FILE` | writes the last result of that type | |

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use onelight::{Reference, TableCoding};
 use onelight_benches::{Form, NEGATIVE, PLAIN_SIZE, SHAPER, film, natural, plain};
-use onelight_lut::{Channels, Pixels, PixelsMut, Sample};
+use onelight_lut::{Channels, Pixels, PixelsMut, Sample, SimdLevel};
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -21,7 +21,11 @@ const COPY_BLOCK: usize = 1 << 16;
 #[derive(Default)]
 pub(crate) struct Session {
     pool: Option<ThreadPool>,
+    /// The instructions that pictures are mapped by; the best ones where none were named.
+    level: Option<SimdLevel>,
     film: Option<Reference>,
+    /// The same without inter-image effects.
+    uncoupled: Option<Reference>,
     forms: HashMap<String, Form>,
     table: Vec<[f32; 3]>,
     size: [usize; 2],
@@ -39,15 +43,24 @@ impl Session {
                 self.pool = Some(ThreadPoolBuilder::new().num_threads(count.parse()?).build()?);
                 Ok(Vec::new())
             }
+            ["level", name] => {
+                let known = SimdLevel::available();
+                let names = || known.iter().map(|level| level.name()).collect::<Vec<_>>().join(", ");
+                let level = known.iter().find(|level| level.name() == name);
+                self.level = Some(*level.ok_or_else(|| format!("found {name}, expected one of {}", names()))?);
+                Ok(Vec::new())
+            }
             ["read", folder, width, height] => self.read(Path::new(folder), [width.parse()?, height.parse()?]),
             ["build", form] => self.build(form),
             ["apply", form, "f32", runs] => {
                 let form = self.forms.get(form).ok_or("build the form first")?;
-                apply(self.pool.as_ref(), form, &self.picture, &mut self.floats, self.size, runs.parse()?)
+                let level = self.level.unwrap_or_else(SimdLevel::best);
+                apply((self.pool.as_ref(), level), form, &self.picture, &mut self.floats, self.size, runs.parse()?)
             }
             ["apply", form, "u8", runs] => {
                 let form = self.forms.get(form).ok_or("build the form first")?;
-                apply(self.pool.as_ref(), form, &self.picture, &mut self.bytes, self.size, runs.parse()?)
+                let level = self.level.unwrap_or_else(SimdLevel::best);
+                apply((self.pool.as_ref(), level), form, &self.picture, &mut self.bytes, self.size, runs.parse()?)
             }
             ["copy", runs] => copy(self.pool.as_ref(), &self.picture, &mut self.floats, runs.parse()?),
             ["save", "f32", file] => write_floats(Path::new(file), self.floats.iter()),
@@ -102,7 +115,21 @@ impl Session {
                     _ => form::direct(film),
                 }
             }
-            _ => return Err("found another form, expected plain, structured, display or direct".into()),
+            "structured-uncoupled" | "direct-uncoupled" => {
+                if self.uncoupled.is_none() {
+                    self.uncoupled = Some(form::uncoupled_film()?);
+                }
+                let film = self.uncoupled.as_ref().ok_or("no film")?;
+                begin = Instant::now();
+                match name {
+                    "structured-uncoupled" => form::structured(film, TableCoding::Density),
+                    _ => form::direct(film),
+                }
+            }
+            _ => {
+                let expected = "plain, structured, display or direct, or structured-uncoupled or direct-uncoupled";
+                return Err(format!("found form {name}, expected {expected}").into());
+            }
         }?;
         let time = begin.elapsed().as_nanos() as f64;
         self.forms.insert(name.to_owned(), form);
@@ -119,7 +146,7 @@ fn make(folder: &Path, size: [usize; 2]) -> Answer {
 }
 
 fn apply<T: Sample>(
-    pool: Option<&ThreadPool>,
+    (pool, level): (Option<&ThreadPool>, SimdLevel),
     form: &Form,
     from: &[f32],
     to: &mut [T],
@@ -128,7 +155,7 @@ fn apply<T: Sample>(
 ) -> Answer {
     let from = Pixels::new(from, Channels::Rgba, size)?;
     let mut to = PixelsMut::new(to, Channels::Rgba, size)?;
-    times(pool, runs, || Ok(form.map(&from, &mut to)?))
+    times(pool, runs, || Ok(form.map_on(level, &from, &mut to)?))
 }
 
 fn copy(pool: Option<&ThreadPool>, from: &[f32], to: &mut [f32], runs: usize) -> Answer {

@@ -2,12 +2,14 @@
 
 mod colours;
 mod curves;
+mod effects;
 mod growth;
 mod spectral;
 
 use serde::Serialize;
 
 pub(super) use curves::CurveRow;
+pub(super) use effects::EffectRow;
 pub(super) use growth::{Growth, Measured, growth};
 pub(super) use spectral::{ExposureRow, GridRow};
 
