@@ -2,11 +2,13 @@
 //! a camera gives to measure on.
 //!
 //! `cargo bench` runs the benchmarks in a few minutes, `cargo bench --bench apply` one file of them. `peers/` runs other programs
-//! beside ours. The modules are what `cargo xtask report`, `stability`, `gpu-bench`, `fidelity`, `certify --buffers` and `stocks --fidelity` print
+//! beside ours. The modules are what `cargo xtask report`, `stability`, `gpu-bench`, `fidelity`, `certify --buffers`, `stocks --fidelity` and
+//! `stocks --certify` print
 //! and write; they return values and text, and write nothing.
 
 pub mod buffers;
 mod calendar;
+pub mod certified_pairs;
 mod described_look;
 mod error;
 pub mod fidelity;

@@ -116,6 +116,7 @@ mod gamut_effect;
 mod input_coding;
 mod look;
 mod message;
+mod pairs;
 mod process;
 mod process_keys;
 mod reference;
@@ -147,6 +148,7 @@ pub use onelight_printing::{Aim, Calibration, Filters, HeatGlass, Infrared, Prin
 pub use onelight_spatial as spatial;
 pub use onelight_spectra as spectra;
 pub use onelight_spectra::{DisplayLinear, Reconstruction, TransferCurve};
+pub use pairs::{looks_with, pairs};
 pub use process::{
     Approach, ColourSpaces, DEFAULT_CAMERA, DEFAULT_PRINT, DEFAULT_SILVER_PRINT, EffectChoice, Effects, FilmProcess,
     FirstControls, FirstProcess, InterImageChoice, OwnSheet, PrintAlone, Printing, Process, StockRef, ToneMapping,

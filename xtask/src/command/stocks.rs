@@ -1,5 +1,4 @@
 mod contact_sheet;
-pub(super) mod pairs;
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -8,12 +7,12 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use clap::Args;
 use onelight::film::{ExposureAxis, Origin, PerLayer};
-use onelight::{Image, Stock, StockKind, stock, stock_ids};
+use onelight::{Image, Stock, StockKind, looks_with, stock, stock_ids};
 use serde_json::{Value, json};
 
 use crate::atomic_file::write_atomically;
 #[cfg(not(feature = "measure"))]
-use crate::rebuild::measured as fidelity;
+use crate::rebuild::{measured as fidelity, measured as certify};
 use crate::{Report, folders, plot};
 
 #[derive(Debug, Args)]
@@ -49,6 +48,7 @@ pub(crate) struct Arguments {
 }
 
 /// Colours drawn for the certificate of a pair.
+#[cfg(feature = "measure")]
 const COLOURS: usize = 1 << 12;
 /// What `--kind` takes: the kinds of stock, and what their pictures are made of.
 const KINDS: [&str; 8] =
@@ -60,7 +60,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         None if arguments.check => check()?,
         None if arguments.fidelity => return fidelity(arguments),
         None if arguments.sheet.is_some() => shown(arguments)?,
-        None if arguments.certify => pairs::certificates(&pairs::sensible(&chosen(arguments)?)?, COLOURS)?,
+        None if arguments.certify => return certify(arguments),
         None => all(&chosen(arguments)?),
     };
     Ok(Report { text, json, as_json: arguments.json })
@@ -73,6 +73,13 @@ fn fidelity(arguments: &Arguments) -> Result<Report> {
     let (found, curves) = (sheet_fidelity::all()?, sheet_fidelity::all_curves()?);
     let text = format!("{}\n{}", sheet_fidelity::table(&found), sheet_fidelity::table_of_curves(&curves));
     Ok(Report { text, json: json!({ "camera_films": found, "other_stocks": curves }), as_json: arguments.json })
+}
+
+#[cfg(feature = "measure")]
+fn certify(arguments: &Arguments) -> Result<Report> {
+    let looks = looks_with(&chosen(arguments)?)?;
+    let (text, json) = onelight_benches::certified_pairs::certificates(&looks, COLOURS, &crate::progress::bars())?;
+    Ok(Report { text, json, as_json: arguments.json })
 }
 
 /// The stocks of a kind, or of a maker, in the order of the list.
@@ -218,7 +225,7 @@ fn one(id: &str, out: Option<&Path>) -> Result<(String, Value)> {
 /// Reads all stocks and compiles every sensible process.
 fn check() -> Result<(String, Value)> {
     let stocks: Vec<Stock> = stock_ids().map(stock).collect::<Result<_, _>>()?;
-    let looks = pairs::sensible(&stocks)?;
+    let looks = looks_with(&stocks)?;
     let faults: Vec<String> =
         looks.iter().filter_map(|look| look.compile().err()).map(|error| error.to_string()).collect();
     let (stocks, count) = (stocks.len(), looks.len());

@@ -1,12 +1,11 @@
 use anyhow::Result;
-use onelight::{Stock, stock, stock_ids};
+use onelight::{Stock, pairs, stock, stock_ids};
 use onelight_benches::DescribedLook;
 use onelight_benches::stability::{Card, Contents, STEPS, rows as measured};
 
 use super::Arguments;
 use crate::atomic_file::AtomicFiles;
 use crate::command::certify::{of_the_readme, with_films};
-use crate::command::stocks::pairs::pairs;
 use crate::progress::{Clock, bar};
 use crate::{Report, folders};
 

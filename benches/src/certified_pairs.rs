@@ -1,73 +1,35 @@
-//! Every camera film on everything that it is printed on.
+//! How far the tables of looks lie from the film, as a table of all that is printed on what.
 
 use std::fmt::Write as _;
 
-use anyhow::Result;
 use onelight::baked::{Form, Recipe};
 use onelight::certify::Certifier;
 use onelight::lut::{Certificate, SamplingLaw, Search, Storage};
-use onelight::{FilmProcess, Printing, Process, Stock, StockKind, WorkingSpace, stock, stock_ids};
+use onelight::{FilmProcess, Process, WorkingSpace};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use crate::progress::bar;
+use crate::error::Result;
+use crate::progress::{OnProgress, Steps};
 
-/// Every camera film as it is shown itself, and on everything that it is usually printed on.
-pub(in crate::command) fn pairs(all: &[Stock]) -> Vec<(&Stock, Option<&Stock>)> {
-    let mut pairs = Vec::new();
-    for camera in all.iter().filter(|stock| stock.kind().is_camera_film()) {
-        if matches!(camera.kind(), StockKind::Reversal | StockKind::Instant) {
-            pairs.push((camera, None));
-        }
-        pairs.extend(all.iter().filter(|print| camera.is_printed_on(print)).map(|print| (camera, Some(print))));
-    }
-    pairs
-}
-
-/// The pairs that one of `chosen` is in; and every variant of those once.
-pub(super) fn sensible(chosen: &[Stock]) -> Result<Vec<FilmProcess>> {
-    let all: Vec<Stock> = stock_ids().map(stock).collect::<Result<_, _>>()?;
-    let is_chosen = |stock: &Stock| chosen.iter().any(|chosen| chosen.id() == stock.id());
-    let look = |camera: &str, print: Option<&str>| FilmProcess {
-        camera: camera.into(),
-        print: print.map(Printing::on),
-        ..FilmProcess::default()
-    };
-    let with_chosen =
-        pairs(&all).into_iter().filter(|(camera, print)| is_chosen(camera) || print.is_some_and(is_chosen));
-    let mut looks: Vec<_> = with_chosen.map(|(camera, print)| look(camera.id(), print.map(Stock::id))).collect();
-    for stock in chosen {
-        for variant in stock.variants().map(|variant| format!("{}@{variant}", stock.id())) {
-            // The usual one goes by the name of the stock.
-            if onelight::stock(&variant)?.id() == stock.id() {
-                continue;
-            }
-            if stock.kind().is_camera_film() {
-                looks.push(FilmProcess::for_camera(&variant)?);
-            } else if let Some(camera) = all.iter().find(|camera| camera.is_printed_on(stock)) {
-                looks.push(look(camera.id(), Some(&variant)));
-            }
-        }
-    }
-    Ok(looks)
-}
-
-/// The structured table of each look, 32^3 in half floats, against the exact film on so many colours.
-pub(super) fn certificates(looks: &[FilmProcess], colours: usize) -> Result<(String, Value)> {
+/// The structured table of each look, 32^3 in half floats, against the exact film on so many colours: as text and as JSON.
+///
+/// # Errors
+/// If a look does not compile or cannot be baked.
+pub fn certificates(looks: &[FilmProcess], colours: usize, tell: OnProgress<'_>) -> Result<(String, Value)> {
     let recipe = Recipe { storage: Storage::F16, ..Recipe::of(Form::Structured) };
     let law = SamplingLaw { count: colours, ..SamplingLaw::default() };
-    let progress = bar("certifying", looks.len() as u64);
+    let steps = Steps::new("certifying", looks.len() as u64, tell);
     let certify = |look: &FilmProcess| -> Result<(String, Certificate)> {
         let film = Process::from(look.clone()).look()?;
         let measure = Certifier::new(&film)?;
         let samples = measure.samples(&law, WorkingSpace::Srgb)?;
         let table = film.baked(&recipe)?;
         let found = measure.certify(&samples, |rgb| table.apply(rgb), Search::SamplesOnly)?;
-        progress.inc(1);
+        steps.step();
         Ok((film.name().to_owned(), found))
     };
     let found: Vec<(String, Certificate)> = looks.par_iter().map(certify).collect::<Result<_>>()?;
-    progress.finish_and_clear();
     let mut text = format!(
         "CIEDE2000 of the structured table, 32^3 in half floats, from the exact film: {colours} sRGB colours from -10 to +10 stops\n\
          | films | mean | 99 % below | largest |\n|---|---|---|---|\n"
@@ -121,6 +83,7 @@ fn by_print(found: &[(String, Certificate)]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use onelight::Printing;
 
     /// One look of each kind that prints and each that is shown itself, in colour and in black and white.
     const TWELVE: [(&str, Option<&str>); 12] = [
@@ -145,29 +108,11 @@ mod tests {
             print: print.map(Printing::on),
             ..FilmProcess::default()
         });
-        let (text, rows) = certificates(&looks, 1 << 9).unwrap();
+        let (text, rows) = certificates(&looks, 1 << 9, &|_| {}).unwrap();
         for row in rows.as_array().unwrap() {
             let mean = row["certificate"]["overall"]["mean"].as_f64().unwrap();
             assert!(mean < 0.15, "{text}");
         }
         assert!(text.contains("| itself | 3 |") && text.contains("| kodak-polymax-fine-art | 1 |"), "{text}");
-    }
-
-    #[test]
-    fn a_chosen_paper_is_seen_behind_every_negative() {
-        let paper = [stock("kodak-endura-premier").unwrap()];
-        let negatives = stock_ids().map(|id| stock(id).unwrap()).filter(|film| film.is_printed_on(&paper[0])).count();
-        assert_eq!(sensible(&paper).unwrap().len(), negatives);
-    }
-
-    #[test]
-    fn every_look_is_there_once() {
-        let all: Vec<Stock> = stock_ids().map(|id| stock(id).unwrap()).collect();
-        let mut names: Vec<String> =
-            sensible(&all).unwrap().into_iter().map(|look| Process::from(look).name()).collect();
-        let count = names.len();
-        names.sort_unstable();
-        names.dedup();
-        assert_eq!(names.len(), count);
     }
 }
