@@ -2,7 +2,7 @@ use onelight_film::{AmountCurve, LogExposure, PerLayer, PrintCurves, Stock, Stoc
 use onelight_printing::{
     EquivalentNeutralDensity, POINT_LOG_EXPOSURE, Projection, White, print_mid_grey, print_target,
 };
-use onelight_spectra::{DisplayLinear, SpectralShape};
+use onelight_spectra::{DisplayLinear, SpectralShape, finite};
 
 use crate::about::About;
 use crate::cineon::{self, GREY_CODE, LAST_CODE};
@@ -64,8 +64,7 @@ impl PrintedScan {
     /// Cineon codes, 0 to 1 for 0 to 1023, to display-linear RGB, not clipped. NaN counts as 0, other codes are held to 0 to 1.
     #[must_use]
     pub fn develop_codes(&self, codes: [f64; 3]) -> DisplayLinear {
-        // max() makes 0 of NaN.
-        let density = PerLayer::from(codes.map(|code| cineon::density(code.max(0.0).min(1.0))));
+        let density = PerLayer::from(codes.map(|code| cineon::density(finite(code).clamp(0.0, 1.0))));
         let exposure = self.unmasked.zip_map(density, |h, density| LogExposure(h.0 - density));
         self.projection.rgb(self.curves.as_ref().zip_map(exposure, AmountCurve::amount))
     }
