@@ -70,33 +70,107 @@ impl fmt::Display for Role {
 #[derive(Debug)]
 #[cfg_attr(not(feature = "native"), expect(dead_code, reason = "some are about devices that this crate opens"))]
 pub(crate) enum ErrorKind {
-    TargetFormat { found: TextureFormat },
-    OtherTarget { found: TextureFormat, expected: TextureFormat },
-    SourceFormat { found: TextureFormat },
-    Usage { role: Role, found: TextureUsages, expected: TextureUsages },
-    Dimension { role: Role, found: TextureDimension },
-    SampleCount { role: Role, found: u32 },
-    MipLevels { found: u32 },
+    TargetFormat {
+        found: TextureFormat,
+    },
+    OtherTarget {
+        found: TextureFormat,
+        expected: TextureFormat,
+    },
+    SourceFormat {
+        found: TextureFormat,
+    },
+    #[cfg(feature = "spatial")]
+    SpatialTarget {
+        found: TextureFormat,
+    },
+    #[cfg(feature = "spatial")]
+    StageSize {
+        found: [u32; 2],
+        expected: [u32; 2],
+    },
+    Usage {
+        role: Role,
+        found: TextureUsages,
+        expected: TextureUsages,
+    },
+    Dimension {
+        role: Role,
+        found: TextureDimension,
+    },
+    SampleCount {
+        role: Role,
+        found: u32,
+    },
+    MipLevels {
+        found: u32,
+    },
     SameTexture,
-    Refused { what: Refused, found: String },
-    Storage { found: Storage },
+    Refused {
+        what: Refused,
+        found: String,
+    },
+    Storage {
+        found: Storage,
+    },
     NotFilterable,
     NoCompute,
     Shaper,
-    OtherForm { found: FormKind, expected: FormKind },
-    TableSize { found: usize, expected: usize },
-    TableLimit { found: usize, max: u32 },
-    Points { found: usize, max: usize },
-    Terms { found: usize, max: usize },
-    HalfFloat { found: f32 },
-    NotFinite { what: &'static str, found: f32 },
-    Binding { found: u32, max: u32 },
-    Side { width: u32, height: u32, max: u32 },
-    Sizes { from: [u32; 2], to: [u32; 2] },
-    NoAdapter { found: Vec<String>, expected: String },
-    Device { found: String },
-    ByteCount { found: usize, expected: u64 },
-    BufferLimit { found: u64, max: u64 },
+    OtherForm {
+        found: FormKind,
+        expected: FormKind,
+    },
+    TableSize {
+        found: usize,
+        expected: usize,
+    },
+    TableLimit {
+        found: usize,
+        max: u32,
+    },
+    Points {
+        found: usize,
+        max: usize,
+    },
+    Terms {
+        found: usize,
+        max: usize,
+    },
+    HalfFloat {
+        found: f32,
+    },
+    NotFinite {
+        what: &'static str,
+        found: f32,
+    },
+    Binding {
+        found: u32,
+        max: u32,
+    },
+    Side {
+        width: u32,
+        height: u32,
+        max: u32,
+    },
+    Sizes {
+        from: [u32; 2],
+        to: [u32; 2],
+    },
+    NoAdapter {
+        found: Vec<String>,
+        expected: String,
+    },
+    Device {
+        found: String,
+    },
+    ByteCount {
+        found: usize,
+        expected: u64,
+    },
+    BufferLimit {
+        found: u64,
+        max: u64,
+    },
 }
 
 /// What wgpu refused: a view tells nothing of itself, so that it cannot be checked beforehand.
@@ -125,6 +199,15 @@ impl fmt::Display for Error {
                 f,
                 "format of the target: found {found:?}, expected Rgba8Unorm or Bgra8Unorm, with or without Srgb, Rgb10a2Unorm, Rgba16Float or Rgba32Float"
             ),
+            #[cfg(feature = "spatial")]
+            ErrorKind::SpatialTarget { found } => write!(
+                f,
+                "target of sharpness, halation and grain: found {found:?}, expected Rgba8Unorm, Rgba16Float or Rgba32Float on a device that computes"
+            ),
+            #[cfg(feature = "spatial")]
+            ErrorKind::StageSize { found: [w, h], expected: [width, height] } => {
+                write!(f, "size of the textures: found {w} x {h}, expected {width} x {height} as the stage is for")
+            }
             ErrorKind::OtherTarget { found, expected } => {
                 write!(f, "format of the texture to write: found {found:?}, expected {expected:?} as the pass was made for")
             }

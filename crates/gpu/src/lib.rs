@@ -22,6 +22,7 @@
 //! - [`FilmPass::encode`] writes a texture, [`FilmPass::draw`] into a render pass of the user's;
 //! - [`wgsl`] and [`BoundLook`] are the same for a shader of the user's: `onelight_develop(rgb)`; with [`LookBytes`] also
 //!   without wgpu, or with another version of it;
+//! - `SpatialPass` (with the feature `spatial`) is a [`FilmPass`] with sharpness, halation and grain;
 //! - [`TableBake`] fills the table of a plain form from a direct form, on the GPU;
 //! - `Headless` (with the feature `native`) opens a device without a window and reads back what it made.
 //!
@@ -51,6 +52,8 @@ mod pass;
 mod pipeline;
 mod settings;
 mod shader;
+#[cfg(feature = "spatial")]
+mod spatial;
 mod target;
 #[cfg(test)]
 mod translation;
@@ -67,6 +70,8 @@ pub use headless::{Headless, HeadlessSettings};
 pub use pass::FilmPass;
 pub use settings::{Bindings, Fetch, LookSettings};
 pub use shader::wgsl;
+#[cfg(feature = "spatial")]
+pub use spatial::SpatialPass;
 pub use uniform::MAX_TERMS;
 pub use wgpu;
 

@@ -101,6 +101,47 @@ pub(crate) fn bake(table: TextureFormat) -> String {
     files.join("\n")
 }
 
+/// A linear map along an axis, for the steps of a stage.
+#[cfg(feature = "spatial")]
+pub(crate) const SPATIAL_AXIS: &str = include_str!("shader/spatial/axis.wgsl");
+/// The field of halation in cells.
+#[cfg(feature = "spatial")]
+pub(crate) const SPATIAL_HOLE: &str = include_str!("shader/spatial/hole.wgsl");
+/// Noise, correlated along x.
+#[cfg(feature = "spatial")]
+pub(crate) const SPATIAL_NOISE: &str = include_str!("shader/spatial/noise.wgsl");
+
+/// Scene light to exposures, by a direct form.
+#[cfg(feature = "spatial")]
+pub(crate) fn spatial_expose() -> String {
+    with_direct(&[include_str!("shader/spatial/expose.wgsl")])
+}
+
+/// Exposures to amounts, by a direct form.
+#[cfg(feature = "spatial")]
+pub(crate) fn spatial_develop() -> String {
+    with_direct(&[include_str!("shader/spatial/develop.wgsl")])
+}
+
+/// Amounts to a target that a compute shader can write, by a direct form.
+#[cfg(feature = "spatial")]
+pub(crate) fn spatial_finish(target: Target) -> String {
+    // Whatever else was asked for is refused before.
+    let declaration = match target.format() {
+        TextureFormat::Rgba8Unorm => include_str!("shader/spatial/target_rgba8unorm.wgsl"),
+        TextureFormat::Rgba16Float => include_str!("shader/spatial/target_rgba16float.wgsl"),
+        _ => include_str!("shader/spatial/target_rgba32float.wgsl"),
+    };
+    with_direct(&[stored(target), declaration, include_str!("shader/spatial/finish.wgsl")])
+}
+
+#[cfg(feature = "spatial")]
+fn with_direct(files: &[&'static str]) -> String {
+    let mut all = develop(FormKind::Direct, Fetch::Texels);
+    all.extend(files);
+    all.join("\n")
+}
+
 fn stored(target: Target) -> &'static str {
     match target {
         Target::Unorm(TextureFormat::Rgb10a2Unorm) => include_str!("shader/target/unorm10.wgsl"),

@@ -77,6 +77,22 @@ fn every_shader_is_translated() {
     assert_eq!(entries, 2 + 6 * (5 * 2 + 3));
 }
 
+#[cfg(feature = "spatial")]
+#[test]
+fn every_step_of_a_stage_is_translated() {
+    use crate::shader::{SPATIAL_AXIS, SPATIAL_HOLE, SPATIAL_NOISE, spatial_develop, spatial_expose, spatial_finish};
+    let mut texts = vec![spatial_expose(), spatial_develop()];
+    texts.extend([SPATIAL_AXIS, SPATIAL_HOLE, SPATIAL_NOISE].map(str::to_owned));
+    for format in [TextureFormat::Rgba8Unorm, TextureFormat::Rgba16Float, TextureFormat::Rgba32Float] {
+        texts.push(spatial_finish(Target::new(format).unwrap()));
+    }
+    for text in texts {
+        let (module, info) = valid(&text);
+        native(&module, &info);
+        glsl_es(&module, &info, 310, ShaderStage::Compute, &module.entry_points[0].name);
+    }
+}
+
 #[test]
 fn texts_to_paste_are_whole_and_keep_to_their_names() {
     for (kind, fetch) in FormKind::ALL.into_iter().flat_map(|kind| [Fetch::Texels, Fetch::Filtered].map(|f| (kind, f)))

@@ -37,6 +37,11 @@ impl CellAxis {
         self.size
     }
 
+    /// Pixels of the picture.
+    pub(crate) fn pixels(&self) -> usize {
+        self.pixels
+    }
+
     /// The picture's pixels in a cell.
     pub(crate) fn pixels_of(&self, cell: usize) -> Range<usize> {
         let start = (self.first + cell as i64) * self.size as i64 - self.offset;
@@ -84,6 +89,23 @@ impl CellAxis {
 pub(crate) fn cell_taps(axis: &CellAxis, sigma: f64) -> Taps {
     let left = (sigma * sigma - axis.own_variance()).max(0.0).sqrt();
     Taps::of(left / axis.size as f64)
+}
+
+/// The coarser cells in which a Gaussian of `sigma` pixels is made, where these are fine enough for it by themselves none, and its taps.
+pub(crate) fn coarse_cells(axes: [&CellAxis; 2], sigma: [f64; 2]) -> (Option<[CellAxis; 2]>, [Vec<f32>; 2]) {
+    let sizes = [0, 1].map(|i| (sigma[i] / (axes[i].size as f64 * CELLS_PER_SIGMA_OF_SUMS)).floor().max(1.0) as usize);
+    if sizes == [1, 1] {
+        return (None, [0, 1].map(|i| cell_taps(axes[i], sigma[i]).rounded()));
+    }
+    // The finer cells blur as well, in their own pixels.
+    let coarse = [0, 1].map(|i| axes[i].of_cells(sizes[i]));
+    let taps = [0, 1].map(|i| {
+        let size = axes[i].size as f64;
+        let own = axes[i].own_variance() / (size * size);
+        let sigma = ((sigma[i] / size).powi(2) - own).max(0.0).sqrt();
+        cell_taps(&coarse[i], sigma).rounded()
+    });
+    (Some(coarse), taps)
 }
 
 /// Rows of means of cells.
@@ -139,20 +161,10 @@ impl CellRows {
     /// These rows, all there are of a picture, blurred by a Gaussian of `sigma` pixels: wide ones in coarser cells still, which are counted
     /// from the frame's origin as these are.
     pub(crate) fn blurred_by(&self, level: Level, axes: [&CellAxis; 2], sigma: [f64; 2]) -> Self {
-        let sizes =
-            [0, 1].map(|i| (sigma[i] / (axes[i].size as f64 * CELLS_PER_SIGMA_OF_SUMS)).floor().max(1.0) as usize);
-        if sizes == [1, 1] {
-            let [x, y] = [0, 1].map(|i| cell_taps(axes[i], sigma[i]).rounded());
-            return self.blurred(level, &x, &y, self.rows.clone());
-        }
-        // The finer cells blur as well, in their own pixels.
-        let coarse = [0, 1].map(|i| axes[i].of_cells(sizes[i]));
-        let taps = [0, 1].map(|i| {
-            let size = axes[i].size as f64;
-            let own = axes[i].own_variance() / (size * size);
-            let sigma = ((sigma[i] / size).powi(2) - own).max(0.0).sqrt();
-            cell_taps(&coarse[i], sigma).rounded()
-        });
+        let (coarse, taps) = coarse_cells(axes, sigma);
+        let Some(coarse) = coarse else {
+            return self.blurred(level, &taps[0], &taps[1], self.rows.clone());
+        };
         let [x, y] = &coarse;
         let mut means = Self::new(x.count, 0..y.count);
         let mut sums = CellSums::new(self.width);

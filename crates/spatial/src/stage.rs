@@ -124,6 +124,18 @@ impl SpatialStage {
         &self.frame
     }
 
+    pub(crate) fn blurs(&self) -> Option<&[LayerBlurs; 3]> {
+        self.blurs.as_ref()
+    }
+
+    pub(crate) fn halation(&self) -> Option<&Halation> {
+        self.halation.as_ref()
+    }
+
+    pub(crate) fn grain(&self) -> Option<&Grain> {
+        self.grain.as_ref()
+    }
+
     /// How far light scatters, in pixels along both axes.
     pub(crate) fn scatter_reach(&self) -> [usize; 2] {
         let reach = |axis: usize| self.layers().filter_map(|l| l.scatter.as_ref()).map(|s| s.reach(axis)).max();

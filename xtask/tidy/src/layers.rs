@@ -58,7 +58,7 @@ const LAYERS: [Layer; 15] = [
         foreign: &["wgpu", "lut", "printer", "projector", "kodak", "fuji"],
         ..LIBRARY
     },
-    Layer { folder: "crates/gpu", allowed: &["onelight-lut"], wgpu: Wgpu::Always, ..LIBRARY },
+    Layer { folder: "crates/gpu", allowed: &["onelight-lut", "onelight-spatial"], wgpu: Wgpu::Always, ..LIBRARY },
     Layer { folder: "stocks", ..LIBRARY },
     Layer {
         folder: "crates/onelight",

@@ -72,25 +72,39 @@ fn onelight_projection(x: vec3f) -> vec3f {
     return sum;
 }
 
-// Twin: `DirectForm::apply`.
-fn onelight_direct(linear: vec3f, points: texture_2d<f32>) -> vec3f {
-    let h = onelight_expose(
+// Scene light to log2 exposure. Twin: `Expose::log2`.
+fn onelight_direct_exposed(linear: vec3f) -> vec3f {
+    return onelight_expose(
         linear,
         onelight_look.input,
         onelight_look.exposure,
         onelight_look.converts,
         onelight_look.compresses,
     );
-    var dye = onelight_developed(
+}
+
+// Log2 exposure to dye in the camera film. Twin: `Develop::apply`.
+fn onelight_direct_dye(log2_exposure: vec3f, points: texture_2d<f32>) -> vec3f {
+    return onelight_developed(
         points,
         onelight_look.curves,
         onelight_look.coupling,
         onelight_look.coupling_matrix,
         onelight_look.couples,
-        h,
+        log2_exposure,
     );
+}
+
+// Dye in the camera film to what is seen. Twin: `StagedMap::finish`.
+fn onelight_direct_shown(camera: vec3f, points: texture_2d<f32>) -> vec3f {
+    var dye = camera;
     if onelight_look.print_count > 0u {
         dye = onelight_curves(points, onelight_look.print_curves, onelight_log2(onelight_print(dye)));
     }
     return onelight_encode(onelight_projection(dye), onelight_look.coding);
+}
+
+// Twin: `DirectForm::apply`.
+fn onelight_direct(linear: vec3f, points: texture_2d<f32>) -> vec3f {
+    return onelight_direct_shown(onelight_direct_dye(onelight_direct_exposed(linear), points), points);
 }

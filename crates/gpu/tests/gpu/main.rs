@@ -15,4 +15,5 @@ mod picture;
 mod refusals;
 mod refused_textures;
 mod sizes;
+mod spatial;
 mod upload;

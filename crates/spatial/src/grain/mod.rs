@@ -5,6 +5,7 @@ mod correlation;
 mod granularity;
 mod mean;
 pub(crate) mod noise;
+mod numbers;
 pub(crate) mod quadrature;
 mod table;
 
@@ -20,6 +21,8 @@ use aperture::{disc_variance, pixel_covariance};
 pub(crate) use correlation::Correlation;
 use mean::mean_shifts;
 pub(crate) use noise::NoiseKey;
+use noise::field_sigma;
+pub use numbers::GrainNumbers;
 pub(crate) use table::StrengthTable;
 
 /// Radii of dye clouds and of the print's blur that are worked with, in um.
@@ -137,6 +140,17 @@ impl Grain {
     #[must_use]
     pub fn settings(&self) -> GrainSettings {
         self.settings
+    }
+
+    pub(crate) fn numbers(&self) -> GrainNumbers {
+        let [x, y] = &self.correlation;
+        GrainNumbers {
+            seed: self.settings.seed,
+            taps: [x.taps().to_vec(), y.taps().to_vec()],
+            scale: (1.0 / field_sigma(x, y)) as f32,
+            axes: self.tables.each_ref().map(StrengthTable::axis),
+            intervals: self.tables.each_ref().map(StrengthTable::intervals),
+        }
     }
 
     pub(crate) fn correlation(&self) -> [&Correlation; 2] {

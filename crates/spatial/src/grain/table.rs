@@ -29,6 +29,15 @@ impl StrengthTable {
         Self { low: low as f32, per_unit: per_unit as f32, intervals: Box::new(std::array::from_fn(interval)) }
     }
 
+    /// Where it begins, and intervals in a unit of amount.
+    pub(crate) fn axis(&self) -> [f32; 2] {
+        [self.low, self.per_unit]
+    }
+
+    pub(crate) fn intervals(&self) -> Vec<[f32; 4]> {
+        self.intervals.to_vec()
+    }
+
     /// Adds `sigma * noise + shift` to a group of amounts.
     #[inline(always)]
     pub(crate) fn add_grain(&self, noise: &[f32; LANES], amounts: &mut [f32; LANES]) {

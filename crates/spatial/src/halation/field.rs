@@ -72,16 +72,12 @@ impl HalationCells {
     /// # Errors
     /// If the picture has more than 2^26 cells.
     pub fn new(halation: &Halation, frame: &Frame) -> Result<Self, Error> {
-        let fine = halation.settings.antihalation.density() < FINE_BELOW_DENSITY;
-        Self::with_cells(halation, frame, if fine { FINE_CELL_UM } else { CELL_UM })
+        Self::with_cells(halation, frame, halation.cell_um())
     }
 
     /// With cells of another size.
     pub(crate) fn with_cells(halation: &Halation, frame: &Frame, cell_um: f64) -> Result<Self, Error> {
-        let size = |pitch: f64| (cell_um / pitch).round().max(1.0) as usize;
-        let (pitch, offset) = (frame.pitch(), frame.offset());
-        let x = CellAxis::new(size(pitch.x_um()), offset[0], frame.width());
-        let y = CellAxis::new(size(pitch.y_um()), offset[1], frame.height());
+        let [x, y] = cell_axes(frame, cell_um);
         limited("cells of halation", x.count, y.count, MAX_CELLS)?;
         let layers = halation.pull().map(|pull| {
             (pull > 0.0).then(|| LayerCells {
@@ -158,6 +154,26 @@ impl HalationCells {
     }
 }
 
+impl Halation {
+    /// Cells in um that the light which returns is worked out in.
+    fn cell_um(&self) -> f64 {
+        if self.settings.antihalation.density() < FINE_BELOW_DENSITY { FINE_CELL_UM } else { CELL_UM }
+    }
+
+    /// These cells along both axes of a picture.
+    pub(crate) fn cell_axes(&self, frame: &Frame) -> [CellAxis; 2] {
+        cell_axes(frame, self.cell_um())
+    }
+}
+
+fn cell_axes(frame: &Frame, cell_um: f64) -> [CellAxis; 2] {
+    let size = |pitch: f64| (cell_um / pitch).round().max(1.0) as usize;
+    let (pitch, offset) = (frame.pitch(), frame.offset());
+    let x = CellAxis::new(size(pitch.x_um()), offset[0], frame.width());
+    let y = CellAxis::new(size(pitch.y_um()), offset[1], frame.height());
+    [x, y]
+}
+
 impl HaloField {
     /// Whether it is that of a picture of this size and place; its number does not matter.
     pub(crate) fn is_of(&self, frame: &Frame) -> bool {
@@ -193,7 +209,7 @@ impl HaloField {
 }
 
 /// The profile in cells: positive Gaussians, and the weights of what is lost inside the ring.
-struct HaloKernel {
+pub(crate) struct HaloKernel {
     level: Level,
     axes: [CellAxis; 2],
     /// Share of each Gaussian in what returns, and its standard deviation in pixels.
@@ -203,7 +219,15 @@ struct HaloKernel {
 }
 
 impl HaloKernel {
-    fn new(halation: &Halation, axes: [CellAxis; 2], pitch_um: [f64; 2]) -> Self {
+    pub(crate) fn gaussians(&self) -> &[(f32, [f64; 2])] {
+        &self.gaussians
+    }
+
+    pub(crate) fn hole(&self) -> &[(f32, Vec<f32>)] {
+        &self.hole
+    }
+
+    pub(crate) fn new(halation: &Halation, axes: [CellAxis; 2], pitch_um: [f64; 2]) -> Self {
         let returned = halation.returned;
         let gaussians = halation.gaussians.iter();
         let gaussians = gaussians.map(|(w, um)| ((w / returned) as f32, pitch_um.map(|pitch| um / pitch))).collect();

@@ -8,6 +8,7 @@ mod spread;
 
 use onelight_film::PerLayer;
 
+pub(crate) use field::HaloKernel;
 pub use field::{HalationCells, HaloField};
 pub use spread::FilmBase;
 
