@@ -55,6 +55,9 @@ pub(crate) struct LookArguments {
     /// Transfer curve of the display [default: srgb]
     #[arg(long, value_parser = words::<TransferCurve>())]
     output_coding: Option<TransferCurve>,
+    /// Luminance of the display's white in cd/m2, for pq and hlg [default: 203]
+    #[arg(long, value_name = "CD_M2")]
+    white_luminance: Option<f64>,
     #[command(flatten)]
     switches: Switches,
     #[command(flatten)]
@@ -241,8 +244,10 @@ impl LookArguments {
         keys.input_space = self.input_space.unwrap_or(keys.input_space);
         keys.output_space = self.output_space.unwrap_or(keys.output_space);
         keys.output_coding = self.output_coding.unwrap_or(keys.output_coding);
+        keys.white_luminance = self.white_luminance.unwrap_or(keys.white_luminance);
         self.switches.apply(&mut keys);
         self.effects.apply(&mut keys);
+        self.switches.refuse_idle(&keys)?;
         if keys.camera_sheet.is_none() && keys.print_sheet.is_none() {
             return Ok(ChosenLook { process: keys.process()?, films: None, camera: keys.camera });
         }

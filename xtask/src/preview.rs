@@ -3,9 +3,9 @@
 use std::io::Cursor;
 
 use anyhow::Result;
-use image::{ImageFormat, RgbImage};
+use image::{ImageFormat, Rgb, RgbImage};
 use onelight::TransferCurve;
-use onelight::baked::Baked;
+use onelight::baked::{Baked, Chart};
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Chromaticity, RgbSpace};
 
@@ -36,13 +36,26 @@ pub(crate) fn sheet(look: &Baked) -> Result<Vec<u8>> {
         let mut developed: Vec<[f32; 3]> = exposed.iter().map(|rgb| multiply(&to_input, *rgb)).collect();
         look.map_in_place(&mut developed);
         for rgb in &mut developed {
-            let linear = rgb.map(|v| look.spaces().output_coding.decode(f64::from(v)) as f32);
-            *rgb = multiply(&to_srgb, linear).map(srgb_coded);
+            let linear = look.coding().decode_rgb(rgb.map(f64::from));
+            *rgb = multiply(&to_srgb, linear.map(|v| v as f32)).map(srgb_coded);
         }
         caption(&mut sheet, (left, 8), DOT, &format!("scene, clipped, {stops:+} EV"));
         paste(&mut sheet, (left, CAPTION), TILE.0, clipped);
         caption(&mut sheet, (left, CAPTION + TILE.1 + 8), DOT, &format!("{}, {stops:+} EV", look.name()));
         paste(&mut sheet, (left, 2 * CAPTION + TILE.1), TILE.0, developed);
+    }
+    let mut png = Vec::new();
+    sheet.write_to(&mut Cursor::new(&mut png), ImageFormat::Png)?;
+    Ok(png)
+}
+
+/// What the look does to greys, hues and colours, as PNG.
+pub(crate) fn chart(look: &Baked) -> Result<Vec<u8>> {
+    let chart = Chart::of(look)?;
+    let [width, height] = chart.size().map(|v| v as u32);
+    let mut sheet = RgbImage::from_fn(width, height, |x, y| Rgb(chart.pixels()[(y * width + x) as usize]));
+    for ([x, y], text) in chart.labels() {
+        caption(&mut sheet, (*x as u32, *y as u32), (1, 2), text);
     }
     let mut png = Vec::new();
     sheet.write_to(&mut Cursor::new(&mut png), ImageFormat::Png)?;

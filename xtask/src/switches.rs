@@ -2,6 +2,7 @@
 
 use std::str::FromStr;
 
+use anyhow::{Result, bail};
 use clap::Args;
 use onelight::{
     Approach, Calibration, Filters, HeatGlass, Infrared, InterImageChoice, Matching, PrintCurves, PrinterLight,
@@ -124,6 +125,18 @@ impl Switches {
     }
 }
 
+impl Switches {
+    /// Refuses what the exact solution of the printer's lights undoes.
+    pub(crate) fn refuse_idle(&self, keys: &ProcessKeys) -> Result<()> {
+        if self.beam_density.is_some() && keys.calibration == Calibration::Exact {
+            bail!(
+                "--beam-density changes nothing where lights are found exactly, expected --calibration with a number of iterations"
+            );
+        }
+        Ok(())
+    }
+}
+
 fn filters(text: &str) -> Result<Filters, String> {
     if text == "none" {
         return Ok(Filters::of(&[]));
@@ -212,6 +225,7 @@ mod tests {
             "input_space",
             "output_space",
             "output_coding",
+            "white_luminance",
         ];
         let effects = ["film_format", "grain", "sharpness", "halation", "antihalation", "seed"];
         for (key, value) in &after {

@@ -1,5 +1,5 @@
 use onelight_printing::Aim;
-use onelight_spectra::{DisplayDifference, TransferCurve};
+use onelight_spectra::{DisplayCoding, DisplayDifference, TransferCurve};
 
 use crate::error::Error;
 use crate::process::{ColourSpaces, Process};
@@ -10,15 +10,31 @@ pub(crate) struct About {
     pub(crate) name: String,
     pub(crate) aim: Aim,
     pub(crate) spaces: ColourSpaces,
+    coding: DisplayCoding,
 }
 
 impl About {
     pub(crate) fn new(process: &Process) -> Self {
-        Self { name: process.name(), aim: process.aim(), spaces: *process.spaces() }
+        Self {
+            name: process.name(),
+            aim: process.aim(),
+            spaces: *process.spaces(),
+            coding: process.spaces().display_coding(),
+        }
     }
 
-    pub(crate) fn coding(&self) -> TransferCurve {
-        self.spaces.output_coding
+    pub(crate) fn coding(&self) -> DisplayCoding {
+        self.coding
+    }
+
+    /// The same look with linear light for its output.
+    pub(crate) fn in_linear_light(&self) -> Self {
+        let spaces = ColourSpaces {
+            output_coding: TransferCurve::Linear,
+            white_luminance: ColourSpaces::default().white_luminance,
+            ..self.spaces
+        };
+        Self { spaces, coding: spaces.display_coding(), ..self.clone() }
     }
 
     pub(crate) fn difference(&self) -> Result<DisplayDifference, Error> {

@@ -1,4 +1,5 @@
 use onelight_lut::{Lut3d, bake_form};
+use onelight_spectra::DisplayLinear;
 
 use crate::direct::{DirectSettings, Nodes};
 use crate::error::Error;
@@ -29,6 +30,13 @@ impl Reference {
     /// # Errors
     /// If the size is out of bounds.
     pub fn bake(&self, size: usize, at: impl Fn([f64; 3]) -> [f64; 3] + Sync) -> Result<Lut3d, Error> {
-        Ok(bake_form(size, at, &self.direct(&DirectSettings::BAKING)?)?)
+        if !self.coding().curve.is_hdr() {
+            return Ok(bake_form(size, at, &self.direct(&DirectSettings::BAKING)?)?);
+        }
+        // Forms code by powers alone.
+        let table = bake_form(size, at, &self.in_linear_light().direct(&DirectSettings::BAKING)?)?;
+        let coding = self.coding();
+        let coded = |entry: [f32; 3]| coding.encode_rgb(DisplayLinear(entry.map(f64::from))).map(|v| v as f32);
+        Ok(Lut3d::new(size, table.entries().map(coded).collect())?)
     }
 }

@@ -237,7 +237,7 @@ impl<'a> Certifier<'a> {
             reference: |rgb| *self.look.develop_linear(self.held(multiply(&to_input, rgb))),
             candidate: |rgb: [f64; 3]| {
                 let input = multiply(&to_input, rgb).map(|v| v as f32);
-                map(input).map(|v| coding.decode(f64::from(v)))
+                *coding.decode_rgb(map(input).map(f64::from))
             },
             difference: |a: &[f64; 3], b: &[f64; 3]| self.difference.between(DisplayLinear(*a), DisplayLinear(*b)),
             luminance: |v: &[f64; 3]| self.luminance.dot(&Vector3::from(*v)),

@@ -8,7 +8,7 @@ use onelight_printing::{
     print_target, reversal_target,
 };
 use onelight_spectra::quantity::Power;
-use onelight_spectra::{Basis, DisplayDifference, DisplayLinear, SpectralDistribution, SpectralShape, TransferCurve};
+use onelight_spectra::{Basis, DisplayCoding, DisplayDifference, DisplayLinear, SpectralDistribution, SpectralShape};
 
 use crate::about::About;
 use crate::error::{Error, ErrorKind};
@@ -300,9 +300,9 @@ impl Reference {
         self.about.difference()
     }
 
-    /// The transfer curve of [`Reference::develop`].
+    /// The coding of [`Reference::develop`].
     #[must_use]
-    pub fn coding(&self) -> TransferCurve {
+    pub fn coding(&self) -> DisplayCoding {
         self.about.coding()
     }
 
@@ -316,6 +316,11 @@ impl Reference {
     #[must_use]
     pub fn name(&self) -> &str {
         &self.about.name
+    }
+
+    /// The same film with linear light for its output: what forms code whose files know no PQ or HLG.
+    pub(crate) fn in_linear_light(&self) -> Self {
+        Self { about: self.about.in_linear_light(), ..self.clone() }
     }
 
     pub(crate) fn about(&self) -> &About {

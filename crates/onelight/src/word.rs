@@ -171,6 +171,9 @@ words! {
     TransferCurve, "output_coding":
         TransferCurve::Srgb = "srgb" "the sRGB curve",
         TransferCurve::Gamma24 = "gamma24" "a power of 2.4",
+        TransferCurve::Gamma26 = "gamma26" "a power of 2.6: digital cinema",
+        TransferCurve::Pq = "pq" "PQ, white at --white-luminance, in rec2020 or p3",
+        TransferCurve::Hlg = "hlg" "HLG for a display of 1000 cd/m2, white at --white-luminance, in rec2020 or p3",
         TransferCurve::Linear = "linear" "light itself";
 }
 

@@ -15,6 +15,12 @@ pub enum OutputTransfer {
     Srgb,
     /// A power of 1 / 2.4.
     Gamma24,
+    /// A power of 1 / 2.6.
+    Gamma26,
+    /// SMPTE ST 2084, which PNG says by code points alone.
+    Pq,
+    /// Hybrid Log-Gamma (ITU-R BT.2100), which PNG says by code points alone.
+    Hlg,
     /// No curve: the values are linear light.
     Linear,
 }

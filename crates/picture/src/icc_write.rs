@@ -18,6 +18,9 @@ pub(crate) fn profile(tag: &ColourTag) -> Option<Vec<u8>> {
     let curve = match tag.transfer {
         OutputTransfer::Srgb => parametric(3, &[2.4, 1.0 / 1.055, 0.055 / 1.055, 1.0 / 12.92, 0.04045]),
         OutputTransfer::Gamma24 => parametric(0, &[2.4]),
+        OutputTransfer::Gamma26 => parametric(0, &[2.6]),
+        // Of absolute light, which a matrix and curves do not hold.
+        OutputTransfer::Pq | OutputTransfer::Hlg => return None,
         OutputTransfer::Linear => parametric(0, &[1.0]),
     };
     let column = |index: usize| xyz([colorants[0][index], colorants[1][index], colorants[2][index]]);
@@ -73,6 +76,9 @@ fn name(tag: &ColourTag) -> String {
     let curve = match tag.transfer {
         OutputTransfer::Srgb => "sRGB curve",
         OutputTransfer::Gamma24 => "gamma 2.4",
+        OutputTransfer::Gamma26 => "gamma 2.6",
+        OutputTransfer::Pq => "PQ",
+        OutputTransfer::Hlg => "HLG",
         OutputTransfer::Linear => "linear",
     };
     format!("onelight {space}, {curve}")

@@ -199,7 +199,10 @@ fn set_chunks<W: Write>(tag: &ColourTag, encoder: &mut Encoder<'_, W>) {
     encoder.set_source_gamma(ScaledFloat::new(match tag.transfer {
         OutputTransfer::Srgb => 1.0 / 2.2,
         OutputTransfer::Gamma24 => 1.0 / 2.4,
+        OutputTransfer::Gamma26 => 1.0 / 2.6,
         OutputTransfer::Linear => 1.0,
+        // No power is near: only cICP says what they are.
+        OutputTransfer::Pq | OutputTransfer::Hlg => return,
     }));
     if has_negative(&tag.primaries) {
         return;
@@ -218,8 +221,10 @@ fn code_points(tag: &ColourTag) -> Option<[u8; 4]> {
     let transfer = match tag.transfer {
         OutputTransfer::Srgb => 13,
         OutputTransfer::Linear => 8,
-        // H.273 has no pure power of 2.4: its BT.709 point is the camera's curve.
-        OutputTransfer::Gamma24 => return None,
+        OutputTransfer::Pq => 16,
+        OutputTransfer::Hlg => 18,
+        // H.273 has no pure power of 2.4 (its BT.709 point is the camera's curve), and its 2.6 has white at 48/52.37.
+        OutputTransfer::Gamma24 | OutputTransfer::Gamma26 => return None,
     };
     Some([code_point(&tag.primaries)?, transfer, 0, 1])
 }

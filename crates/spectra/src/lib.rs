@@ -78,7 +78,7 @@ pub use scene_value::{MID_GREY, SCENE_MAX, finite};
 pub use scene_white::{SceneWhite, chromatic_adaptation};
 pub use shape::SpectralShape;
 pub use tabulated::{Extrapolation, TablePoints};
-pub use transfer::{CameraLog, CodedSpace, HDR_WHITE_CD_M2, SceneCurve, TransferCurve};
+pub use transfer::{CameraLog, CodedSpace, DisplayCoding, HDR_WHITE_CD_M2, SceneCurve, TransferCurve};
 
 /// The examples of README.md, compiled and run with the tests.
 #[cfg(all(doctest, feature = "ciede2000"))]

@@ -127,3 +127,79 @@ fn a_scan_is_printed_alone() {
         assert!(sentence.contains(expected), "{arguments:?}: {sentence}");
     }
 }
+
+/// PQ and HLG go out as PNG of 16 bits that say so, and PQ comes back as the light it was.
+#[test]
+fn absolute_light_goes_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    flat(folder, "in.exr", [0.4, 0.2, 0.1]);
+    let wide = ["--output-space", "rec2020"];
+    let develop = |out: &str, coding: &str| {
+        done(folder, &[&["develop", "in.exr", out, "--output-coding", coding][..], &wide].concat())
+    };
+    develop("linear.exr", "linear");
+    let said = develop("same.exr", "pq");
+    assert!(said.contains("an EXR holds linear light") && said.contains("(1, 1, 1) is 203 cd/m2"), "{said}");
+    assert_eq!(first_pixel(folder, "linear.exr"), first_pixel(folder, "same.exr"));
+    for (coding, transfer) in [("pq", 16), ("hlg", 18)] {
+        develop("out.png", coding);
+        let png = fs::read(folder.join("out.png")).unwrap();
+        let chunk = png.windows(4).position(|bytes| bytes == b"cICP").unwrap();
+        assert_eq!(png[chunk + 4..chunk + 8], [9, transfer, 0, 1]);
+        assert!(!png.windows(4).any(|bytes| bytes == b"gAMA") && png[24] == 16);
+    }
+    develop("pq.png", "pq");
+    let back = ["develop", "pq.png", "back.exr", "--approach", "clip", "--input-space", "rec2020"];
+    done(folder, &[&back[..], &wide].concat());
+    let (back, light) = (first_pixel(folder, "back.exr"), first_pixel(folder, "linear.exr"));
+    assert!((0..3).all(|c| (back[c] - light[c]).abs() < 1e-4), "{back:?} {light:?}");
+    for (out, more, expected) in [
+        ("a.png", &["--bits", "8"][..], "expected --bits 16"),
+        ("a.jpg", &[], "only a PNG of 16 bits"),
+        ("a.tif", &[], "only a PNG of 16 bits"),
+        ("a.png", &["--white-luminance", "0"], "white_luminance: found 0"),
+        ("a.png", &["--output-space", "adobe-rgb"], "expected output_space rec2020 or p3"),
+    ] {
+        let space: &[&str] = if more.contains(&"adobe-rgb") { &[] } else { &wide };
+        let sentence = refused(folder, &[&["develop", "in.exr", out, "--output-coding", "pq"], space, more].concat());
+        assert!(sentence.contains(expected), "{out} {more:?}: {sentence}");
+    }
+    let bake = [&["bake", "--quick", "--output-coding", "pq", "--out", "look"][..], &wide].concat();
+    let said = done(folder, &[&bake[..], &["--shaper", "logc3", "--size", "17"]].concat());
+    assert!(said.contains("look.logc3.cube"), "{said}");
+    let cube = fs::read_to_string(folder.join("look/look.logc3.cube")).unwrap();
+    assert!(cube.contains("pq coding, 0 to 1 (full range), (1, 1, 1) at 203 cd/m2"), "{}", &cube[..400]);
+    assert!(refused(folder, &[&bake[..], &["--form", "direct"]].concat()).contains("codes by a power and not by pq"));
+    done(folder, &[&bake[..], &["--form", "structured", "--size", "9"]].concat());
+}
+
+/// Options that would change nothing, each refused by its name.
+#[test]
+fn idle_options_of_bake_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    for (line, option) in [
+        ("--form structured --shaper logc4", "--shaper"),
+        ("--form direct --shaper srgb", "--shaper"),
+        ("--form direct --size 17", "--size"),
+        ("--form direct --storage f16", "--storage"),
+        ("--form direct --entries fitted", "--entries"),
+        ("--form structured --stops 8", "--stops"),
+        ("--shaper logc3 --stops 8", "--stops"),
+        ("--shaper vlog --entries fitted", "--entries"),
+        ("--form plain --coding display", "--coding"),
+        ("--form structured --nodes 8", "--nodes"),
+        ("--form structured --unclamped", "--unclamped"),
+        ("--approach reinhard --aim sheet", "aim"),
+        ("--approach clip --gamut clip", "gamut"),
+        ("--approach reinhard --projector xenon", "projector"),
+        ("--beam-density 0,0,0", "--beam-density"),
+        ("--camera fuji-velvia-50 --points 1,0,0", "points"),
+        ("--white-luminance 100", "white_luminance"),
+    ] {
+        let arguments: Vec<&str> = ["bake", "--quick"].into_iter().chain(line.split(' ')).collect();
+        let sentence = refused(folder, &arguments);
+        assert!(sentence.contains(option) && sentence.contains("changes nothing"), "{line}: {sentence}");
+    }
+}

@@ -245,12 +245,14 @@ impl Baked {
             }
             FileFormat::Json => {
                 let BakedForm::Direct(direct) = self.form() else { return Err(format.cannot_hold(self.form().kind())) };
+                self.expect_power(format)?;
                 direct_json::write(&mut bytes, direct, comments)?;
                 // The file itself says what goes in, and nothing else has its name.
                 return Ok(vec![BakedFile { name: "look.direct.json".to_owned(), bytes }]);
             }
             FileFormat::Dctl => {
                 let BakedForm::Direct(direct) = self.form() else { return Err(format.cannot_hold(self.form().kind())) };
+                self.expect_power(format)?;
                 dctl::write(&mut bytes, direct, comments)?;
                 "dctl"
             }
@@ -286,6 +288,19 @@ impl Baked {
             },
         };
         Ok(AsWritten { baked: self, read })
+    }
+
+    /// Refuses what a file of the direct form does not code by.
+    fn expect_power(&self, format: FileFormat) -> Result<(), Error> {
+        let (curve, format) = (self.coding().curve, format.word());
+        if !curve.is_hdr() {
+            return Ok(());
+        }
+        let sentence = format!(
+            "{format} codes by a power and not by {}, expected output_coding linear, or a plain table",
+            curve.word()
+        );
+        Err(ErrorKind::Contradiction(sentence).into())
     }
 
     fn cube(&self, comments: &[String]) -> Result<CubeFile, Error> {

@@ -2,6 +2,7 @@ use onelight_lut::{
     Channels, DirectForm, FitSample, FitSettings, Interpolation, Lut3d, PixelMap, PixelsMut, PlainLut, SceneSampler,
     Shaper, ShaperKind, Storage, StructuredLut, fit,
 };
+use onelight_spectra::{DisplayCoding, DisplayLinear};
 use rayon::prelude::*;
 
 use super::coordinate::Coordinate;
@@ -139,7 +140,13 @@ impl Baked {
                 BakedForm::Structured(Box::new(lut.with_table(table)))
             }
             Form::Direct => {
-                let direct = look.film()?.direct(&DirectSettings { nodes: recipe.nodes })?;
+                let film = look.film()?;
+                let settings = DirectSettings { nodes: recipe.nodes };
+                // It codes by powers alone: PQ and HLG are put on its linear light.
+                let direct = match film.coding().curve.is_hdr() {
+                    true => film.in_linear_light().direct(&settings)?,
+                    false => film.direct(&settings)?,
+                };
                 BakedForm::Direct(Box::new(direct))
             }
         };
@@ -155,7 +162,7 @@ impl Baked {
                 table.apply(self.coordinates_for_file(linear), Interpolation::Tetrahedral)
             }
             BakedForm::Structured(lut) => lut.apply(linear),
-            BakedForm::Direct(direct) => direct.apply(linear),
+            BakedForm::Direct(direct) => self.coded(direct.apply(linear)),
         }
     }
 
@@ -172,8 +179,26 @@ impl Baked {
                     // A row of its own length always is a picture; were it not, its pixels would still be mapped.
                     Err(_) => direct.map_colours(block),
                 }
+                if self.coding().curve.is_hdr() {
+                    block.iter_mut().for_each(|rgb| *rgb = self.coded(*rgb));
+                }
             }),
         }
+    }
+
+    /// What a direct form gives, coded as the look is where the form cannot.
+    fn coded(&self, rgb: [f32; 3]) -> [f32; 3] {
+        let coding = self.coding();
+        match coding.curve.is_hdr() {
+            true => coding.encode_rgb(DisplayLinear(rgb.map(f64::from))).map(|v| v as f32),
+            false => rgb,
+        }
+    }
+
+    /// How what comes out is coded.
+    #[must_use]
+    pub fn coding(&self) -> DisplayCoding {
+        self.about.coding()
     }
 
     /// What a file of this look expects for scene-linear RGB: the light itself, or its coding.

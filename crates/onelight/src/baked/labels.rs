@@ -62,7 +62,14 @@ impl Baked {
     #[must_use]
     pub fn output_in_words(&self) -> String {
         let ColourSpaces { output_space, output_coding, .. } = self.spaces();
-        format!("display {} primaries, {} coding, 0 to 1 (full range)", output_space.word(), output_coding.word())
+        let white = self.coding().white_cd_m2;
+        let white = output_coding.is_hdr().then(|| format!(", (1, 1, 1) at {white} cd/m2"));
+        format!(
+            "display {} primaries, {} coding, 0 to 1 (full range){}",
+            output_space.word(),
+            output_coding.word(),
+            white.unwrap_or_default()
+        )
     }
 
     /// One line under which a program lists the look: its films, and what its file takes.

@@ -9,6 +9,7 @@
 //! # Ok::<(), onelight::Error>(())
 //! ```
 
+mod chart;
 mod coordinate;
 #[cfg(feature = "formats")]
 mod files;
@@ -22,6 +23,7 @@ mod smallest;
 #[cfg(feature = "formats")]
 mod target;
 
+pub use chart::Chart;
 pub use coordinate::Coordinate;
 #[cfg(feature = "formats")]
 pub use files::{AsWritten, BakedFile, FileFormat};

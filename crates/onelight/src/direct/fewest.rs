@@ -93,7 +93,7 @@ impl<'a> Measure<'a> {
         let maps = Maps {
             reference: |rgb| *self.film.develop_linear(input(rgb)),
             candidate: |rgb: [f64; 3]| {
-                direct.apply(input(rgb).map(|v| v as f32)).map(|v| self.film.coding().decode(f64::from(v)))
+                *self.film.coding().decode_rgb(direct.apply(input(rgb).map(|v| v as f32)).map(f64::from))
             },
             difference: |a: &[f64; 3], b: &[f64; 3]| difference.between(DisplayLinear(*a), DisplayLinear(*b)),
             luminance: |v: &[f64; 3]| self.luminance.dot(&Vector3::from(*v)),

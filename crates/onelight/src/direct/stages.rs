@@ -59,7 +59,7 @@ impl Reference {
             develop: self.develop_form(|layer, h| camera[layer].amount(LogExposure(h)).0)?,
             print,
             projection: stages.projection.rounded()?,
-            coding: coding(self.coding())?,
+            coding: coding(self.coding().curve)?,
         };
         Ok(DirectForm::new(parts)?)
     }

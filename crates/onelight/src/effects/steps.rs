@@ -3,7 +3,7 @@ use std::f64::consts::LOG10_2;
 use onelight_film::{DyeAmount, LogExposure, PerLayer};
 use onelight_lut::{DirectForm, StagedMap, StructuredLut};
 use onelight_spatial::{Development, Finish};
-use onelight_spectra::{DisplayDifference, DisplayLinear, TransferCurve};
+use onelight_spectra::{DisplayCoding, DisplayDifference, DisplayLinear};
 
 use crate::baked::{Baked, BakedForm};
 use crate::error::{Error, ErrorKind};
@@ -82,10 +82,18 @@ impl<'a> FilmSteps<'a> {
             Form::Exact => {
                 for (((rgb, red), green), blue) in shown.iter_mut().zip(red).zip(green).zip(blue) {
                     let linear = self.film.develop_amounts(dye([*red, *green, *blue].map(f64::from)));
-                    *rgb = linear.map(|v| self.coding().encode(v) as f32);
+                    *rgb = self.coding().encode_rgb(linear).map(|v| v as f32);
                 }
             }
-            Form::Direct(direct) => direct.finish(amounts, shown),
+            Form::Direct(direct) => {
+                direct.finish(amounts, shown);
+                let coding = self.coding();
+                // The form codes by powers alone: PQ and HLG are put on its linear light.
+                if coding.curve.is_hdr() {
+                    let coded = |rgb: [f32; 3]| coding.encode_rgb(DisplayLinear(rgb.map(f64::from))).map(|v| v as f32);
+                    shown.iter_mut().for_each(|rgb| *rgb = coded(*rgb));
+                }
+            }
             Form::Structured(lut, None) => lut.finish(amounts, shown),
             Form::Structured(lut, Some(ends)) => {
                 let of_axis = |layer: usize| {
@@ -105,7 +113,7 @@ impl<'a> FilmSteps<'a> {
         stops.map(|stops| self.film.camera_amounts(at(stops)).map(|a| a.0).to_array()).collect()
     }
 
-    fn coding(&self) -> TransferCurve {
+    fn coding(&self) -> DisplayCoding {
         self.film.coding()
     }
 }
@@ -140,7 +148,7 @@ impl Finish for FilmSteps<'_> {
         let [red, green, blue] = amounts.map(|a| [a as f32]);
         let mut shown = [[0.0; 3]];
         FilmSteps::finish(self, [&red, &green, &blue], &mut shown);
-        shown[0].map(|v| self.coding().decode(f64::from(v)))
+        *self.coding().decode_rgb(shown[0].map(f64::from))
     }
 
     fn lab(&self, display_linear: [f64; 3]) -> [f64; 3] {

@@ -7,7 +7,7 @@ mod tone_curve;
 mod tone_mapped;
 
 use onelight_lut::Lut3d;
-use onelight_spectra::{DisplayDifference, DisplayLinear, TransferCurve};
+use onelight_spectra::{DisplayCoding, DisplayDifference, DisplayLinear};
 use rayon::prelude::*;
 
 pub use first::FirstApproach;
@@ -71,9 +71,9 @@ impl Look {
         }
     }
 
-    /// The transfer curve of [`Look::develop`].
+    /// The coding of [`Look::develop`].
     #[must_use]
-    pub fn coding(&self) -> TransferCurve {
+    pub fn coding(&self) -> DisplayCoding {
         self.about().coding()
     }
 

@@ -75,6 +75,7 @@ impl PrintAlone {
             Err(ErrorKind::Contradiction(sentence).into())
         };
         let usual = ColourSpaces::default();
+        self.spaces.check()?;
         match &self.spaces {
             spaces if spaces.ev != usual.ev => refuse("ev"),
             spaces if spaces.scene_white.is_some() => refuse("scene_white"),

@@ -1,8 +1,10 @@
 use nalgebra::{Matrix3, Vector3};
-use onelight_spectra::{Chromaticity, DisplayDifference, RgbSpace, SceneWhite, TransferCurve};
+use onelight_spectra::{
+    Chromaticity, DisplayCoding, DisplayDifference, HDR_WHITE_CD_M2, RgbSpace, SceneWhite, TransferCurve,
+};
 
-use crate::error::Error;
-use crate::word::WorkingSpace;
+use crate::error::{Error, ErrorKind};
+use crate::word::{Word as _, WorkingSpace};
 
 /// The RGB that comes in, the light it is of, and the RGB that goes out, the same for every kind of process.
 ///
@@ -13,7 +15,7 @@ use crate::word::WorkingSpace;
 /// assert_eq!(film.spaces().input_space, WorkingSpace::AcesCg);
 /// # Ok::<(), onelight::Error>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ColourSpaces {
     /// Stops by which the scene is made brighter before everything else, -20 to 20.
     pub ev: f64,
@@ -37,6 +39,24 @@ pub struct ColourSpaces {
     pub output_space: WorkingSpace,
     /// Transfer curve of the display RGB that goes out.
     pub output_coding: TransferCurve,
+    /// Luminance of the display's (1, 1, 1) in cd/m^2, which PQ (1 to 10000) and HLG (1 to 1000) ask for; with [`White::Film`] it is that of
+    /// clear film.
+    ///
+    /// [`White::Film`]: crate::White::Film
+    pub white_luminance: f64,
+}
+
+impl Default for ColourSpaces {
+    fn default() -> Self {
+        Self {
+            ev: 0.0,
+            scene_white: None,
+            input_space: WorkingSpace::default(),
+            output_space: WorkingSpace::default(),
+            output_coding: TransferCurve::default(),
+            white_luminance: HDR_WHITE_CD_M2,
+        }
+    }
 }
 
 impl ColourSpaces {
@@ -64,9 +84,42 @@ impl ColourSpaces {
         Ok(matrix * self.ev.exp2())
     }
 
-    /// Whether the exposure is within its range.
+    /// How the output is coded.
+    #[must_use]
+    pub fn display_coding(&self) -> DisplayCoding {
+        let usual = DisplayCoding::default();
+        // The built-in spaces have a luminance.
+        let luminance = self.luminance().map_or(usual.luminance, Into::into);
+        DisplayCoding { curve: self.output_coding, white_cd_m2: self.white_luminance, luminance }
+    }
+
+    /// Whether exposure and white are within their ranges, and the primaries are among those of the coding.
     pub(crate) fn check(&self) -> Result<(), Error> {
-        if (-20.0..=20.0).contains(&self.ev) { Ok(()) } else { Err(Error::setting("ev", self.ev, -20.0, 20.0)) }
+        if !(-20.0..=20.0).contains(&self.ev) {
+            return Err(Error::setting("ev", self.ev, -20.0, 20.0));
+        }
+        let (curve, space, white) = (self.output_coding.word(), self.output_space, self.white_luminance);
+        let refuse = |sentence: String| Err(ErrorKind::Contradiction(sentence).into());
+        let most = match self.output_coding {
+            TransferCurve::Pq => 10_000.0,
+            TransferCurve::Hlg => 1000.0,
+            _ if white != HDR_WHITE_CD_M2 => {
+                return refuse(format!(
+                    "output_coding {curve} is relative to white: white_luminance changes nothing, expected output_coding pq or hlg"
+                ));
+            }
+            _ => return Ok(()),
+        };
+        if !(1.0..=most).contains(&white) {
+            return Err(Error::setting("white_luminance", white, 1.0, most));
+        }
+        if matches!(space, WorkingSpace::Rec2020 | WorkingSpace::P3) {
+            return Ok(());
+        }
+        refuse(format!(
+            "output_coding {curve} is of a wide display, expected output_space rec2020 or p3 instead of {}",
+            space.word()
+        ))
     }
 
     /// CIEDE2000 between display-linear colours of the output.

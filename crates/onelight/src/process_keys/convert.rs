@@ -60,6 +60,7 @@ impl ProcessKeys {
             input_space: self.input_space,
             output_space: self.output_space,
             output_coding: self.output_coding,
+            white_luminance: self.white_luminance,
         };
         let mapping = match self.approach {
             Approach::Second if self.camera == NO_CAMERA => return self.print_alone(spaces).map(Process::Print),
@@ -292,6 +293,7 @@ impl From<&Process> for ProcessKeys {
             input_space: spaces.input_space,
             output_space: spaces.output_space,
             output_coding: spaces.output_coding,
+            white_luminance: spaces.white_luminance,
             ..Self::default()
         };
         if let Some(camera) = process.camera() {

@@ -3,7 +3,7 @@ use onelight_printing::{
     Aim, Calibration, Filters, HeatGlass, Infrared, NEUTRAL_DENSITY, Printer, PrinterLight, Projector, White,
 };
 use onelight_spatial::{Antihalation, FilmFormat};
-use onelight_spectra::{Reconstruction, SceneWhite, TransferCurve};
+use onelight_spectra::{HDR_WHITE_CD_M2, Reconstruction, SceneWhite, TransferCurve};
 use serde::{Deserialize, Serialize};
 
 use super::version::FormatVersion;
@@ -142,6 +142,8 @@ pub struct ProcessKeys {
     /// Transfer curve of the display RGB that goes out.
     #[serde(with = "word::text")]
     pub output_coding: TransferCurve,
+    /// Luminance of the display's (1, 1, 1) in cd/m^2, for PQ and HLG.
+    pub white_luminance: f64,
     /// What a hand changes in the first approach.
     pub first: FirstControls,
 }
@@ -188,6 +190,7 @@ impl Default for ProcessKeys {
             input_space: WorkingSpace::default(),
             output_space: WorkingSpace::default(),
             output_coding: TransferCurve::default(),
+            white_luminance: HDR_WHITE_CD_M2,
             first: FirstControls::default(),
         }
     }

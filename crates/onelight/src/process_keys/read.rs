@@ -10,7 +10,7 @@ use crate::process::{Approach, NO_CAMERA, Process, default_print};
 const MAX_BYTES: usize = 64 * 1024;
 
 /// Every key, for messages; a test holds it against the struct.
-const KEYS: [&str; 35] = [
+const KEYS: [&str; 36] = [
     "version",
     "approach",
     "camera",
@@ -45,16 +45,18 @@ const KEYS: [&str; 35] = [
     "input_space",
     "output_space",
     "output_coding",
+    "white_luminance",
     "first",
 ];
 /// The keys that version 1 did not have.
-const NEW_KEYS: [&str; 12] = [
+const NEW_KEYS: [&str; 13] = [
     "interimage",
     "gamut",
     "print_curves",
     "white",
     "ev",
     "scene_white",
+    "white_luminance",
     "film_format",
     "grain",
     "sharpness",
@@ -176,9 +178,8 @@ fn wrong_type(table: &toml::Table, written: &str) -> Option<String> {
     };
     let expected = match key {
         "version" => "1 or 2",
-        "neutral_density" | "overexposure" | "ev" | "contrast" | "brightness" | "temperature" | "saturation" => {
-            "a number"
-        }
+        "neutral_density" | "overexposure" | "ev" | "white_luminance" | "contrast" | "brightness" | "temperature"
+        | "saturation" => "a number",
         "seed" => "a whole number from 0 to 4294967295",
         "points" | "beam_density" => "three numbers, red, green, blue",
         "filters" => "a list of words in quotes",
@@ -230,7 +231,8 @@ mod tests {
             FilmProcess::default();
         assert_eq!((matching, inter_image, reconstruction), Default::default());
         assert_eq!((gamut, projector, white), Default::default());
-        let ColourSpaces { ev, scene_white, input_space, output_space, output_coding } = spaces;
+        let ColourSpaces { ev, scene_white, input_space, output_space, output_coding, white_luminance } = spaces;
+        assert_eq!(white_luminance, 203.0);
         assert_eq!((ev, scene_white), (0.0, None));
         assert_eq!((input_space, output_space, output_coding), Default::default());
         let print = print.unwrap();

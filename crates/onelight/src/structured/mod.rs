@@ -12,9 +12,9 @@ use onelight_lut::{
 use onelight_spectra::{DisplayLinear, TransferCurve};
 use rayon::prelude::*;
 
-use crate::error::Error;
+use crate::error::{Error, ErrorKind};
 use crate::reference::Reference;
-use crate::word::words;
+use crate::word::{Word as _, words};
 use axes::{Axes, is_one_layer};
 pub(crate) use first_steps::over_log2;
 use first_steps::rows;
@@ -127,7 +127,7 @@ impl Reference {
         let decode = match settings.coding {
             TableCoding::Display => Decode::Coded,
             TableCoding::Density => {
-                Decode::Density { matrix: rows(&self.rgb_from_entries()), coding: coding(self.coding())? }
+                Decode::Density { matrix: rows(&self.rgb_from_entries()), coding: coding(self.coding().curve)? }
             }
         };
         let parts = StructuredParts {
@@ -203,7 +203,7 @@ impl Encode<'_> {
     /// The entry for dye in the camera film.
     fn entry(&self, amounts: PerLayer<DyeAmount>) -> [f32; 3] {
         match self.coding {
-            TableCoding::Display => self.film.develop_amounts(amounts).map(|v| self.film.coding().encode(v) as f32),
+            TableCoding::Display => self.film.coding().encode_rgb(self.film.develop_amounts(amounts)).map(|v| v as f32),
             TableCoding::Density => {
                 let density = self.film.xyz_of_amounts(amounts).map(|v| (-v.log10()).min(DENSITY_MAX));
                 density.map(|d| (d - DENSITY_ORIGIN) as f32)
@@ -252,6 +252,15 @@ pub(crate) fn coding(curve: TransferCurve) -> Result<PowerCoding, Error> {
         TransferCurve::Linear => Ok(PowerCoding::LINEAR),
         TransferCurve::Srgb => Ok(PowerCoding::new(2.4, 0.055)?),
         TransferCurve::Gamma24 => Ok(PowerCoding::new(2.4, 0.0)?),
+        TransferCurve::Gamma26 => Ok(PowerCoding::new(2.6, 0.0)?),
+        TransferCurve::Pq | TransferCurve::Hlg => {
+            let sentence = format!(
+                "output_coding {} is no power, which is all that this form or file codes by, expected output_coding linear, a plain table, or a \
+                 structured one of coding display",
+                curve.word()
+            );
+            Err(ErrorKind::Contradiction(sentence).into())
+        }
     }
 }
 
@@ -261,7 +270,7 @@ mod tests {
 
     #[test]
     fn codings_are_those_of_the_reference() {
-        for curve in [TransferCurve::Linear, TransferCurve::Srgb, TransferCurve::Gamma24] {
+        for curve in [TransferCurve::Linear, TransferCurve::Srgb, TransferCurve::Gamma24, TransferCurve::Gamma26] {
             for i in -100..=1100 {
                 let v = f64::from(i) / 1000.0;
                 // sRGB rounds the slope of its foot.

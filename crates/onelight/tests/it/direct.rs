@@ -80,7 +80,7 @@ fn greys_get_no_darker_with_more_light_on_any_film() {
         let to_y = WorkingSpace::Srgb.space().to_xyz().unwrap().row(1).into_owned();
         let luminance = |i: i32| {
             let coded = direct.apply([0.18 * 2f32.powf(i as f32 / 10.0); 3]);
-            (to_y * Vector3::from(coded.map(|v| film.coding().decode(f64::from(v))))).x
+            (to_y * Vector3::from(*film.coding().decode_rgb(coded.map(f64::from)))).x
         };
         let wedge: Vec<f64> = (-150..=150).map(luminance).collect();
         // Some roundings of float32, as in a certificate.

@@ -143,7 +143,7 @@ fn grain_keeps_large_areas() {
             let (shown, _) = developed(&effects, &look, Some(&baked), frame(2048), &grey, SIZE[1]);
             let plain = baked.apply([level; 3]);
             for layer in 0..3 {
-                let linear = |v: f32| look.coding().decode(f64::from(v));
+                let linear = |v: f32| look.coding().curve.decode(f64::from(v));
                 let count = shown.len() as f64;
                 let mean = shown.iter().map(|rgb| linear(rgb[layer])).sum::<f64>() / count;
                 let scatter = shown.iter().map(|rgb| (linear(rgb[layer]) - mean).powi(2)).sum::<f64>() / count;

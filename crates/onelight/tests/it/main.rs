@@ -8,6 +8,7 @@ mod derived;
 mod direct;
 mod effects;
 mod films;
+mod hdr;
 mod laws;
 mod oracle;
 mod own_stock;

@@ -1,3 +1,4 @@
+use super::hdr::{self, HDR_WHITE_CD_M2};
 use crate::display_linear::DisplayLinear;
 
 /// How linear light becomes the numbers of a finished picture ([`SceneCurve`](crate::SceneCurve) has those of cameras). Each curve
@@ -17,6 +18,14 @@ pub enum TransferCurve {
     Srgb,
     /// A power of 2.4: the studio display of \[BT1886\] with a black of 0.
     Gamma24,
+    /// A power of 2.6: digital cinema (\[RP431-2\]).
+    Gamma26,
+    /// The perceptual quantiser of \[ST2084\], linear 1 being 203 cd/m^2 ([`DisplayCoding`] has others). Odd; light above 10000 cd/m^2 has
+    /// its code.
+    Pq,
+    /// Hybrid Log-Gamma (\[BT2100\]) of a grey on a display of 1000 cd/m^2, linear 1 being 203 cd/m^2. Of colours each channel depends on the
+    /// others: [`DisplayCoding`] knows how.
+    Hlg,
 }
 
 impl TransferCurve {
@@ -29,6 +38,9 @@ impl TransferCurve {
             Self::Srgb if v <= SRGB_LINEAR_END => 12.92 * v,
             Self::Srgb => 1.055 * v.powf(1.0 / 2.4) - 0.055,
             Self::Gamma24 => v.powf(1.0 / 2.4),
+            Self::Gamma26 => v.powf(1.0 / 2.6),
+            Self::Pq => hdr::pq_encode(v),
+            Self::Hlg => hdr::hlg_oetf((v * HDR_WHITE_CD_M2 / hdr::HLG_PEAK).powf(1.0 / hdr::HLG_GAMMA)),
         };
         coded.copysign(linear)
     }
@@ -42,8 +54,17 @@ impl TransferCurve {
             Self::Srgb if v <= 12.92 * SRGB_LINEAR_END => v / 12.92,
             Self::Srgb => ((v + 0.055) / 1.055).powf(2.4),
             Self::Gamma24 => v.powf(2.4),
+            Self::Gamma26 => v.powf(2.6),
+            Self::Pq => hdr::pq_decode(v),
+            Self::Hlg => hdr::hlg_oetf_inverse(v).powf(hdr::HLG_GAMMA) * hdr::HLG_PEAK / HDR_WHITE_CD_M2,
         };
         linear.copysign(coded)
+    }
+
+    /// Whether codes are of absolute light: PQ and HLG.
+    #[must_use]
+    pub const fn is_hdr(self) -> bool {
+        matches!(self, Self::Pq | Self::Hlg)
     }
 
     /// The three channels of [`TransferCurve::encode`].
@@ -69,7 +90,14 @@ mod tests {
 
     #[test]
     fn decode_undoes_encode_and_both_are_odd() {
-        for curve in [TransferCurve::Linear, TransferCurve::Srgb, TransferCurve::Gamma24] {
+        for curve in [
+            TransferCurve::Linear,
+            TransferCurve::Srgb,
+            TransferCurve::Gamma24,
+            TransferCurve::Gamma26,
+            TransferCurve::Pq,
+            TransferCurve::Hlg,
+        ] {
             for i in -4000..=4000 {
                 let v = f64::from(i) / 1000.0;
                 // The two pieces of sRGB miss each other by 3e-8 at their joint, as the standard rounds them.

@@ -31,15 +31,28 @@ const HLG_C: f64 = 0.559_910_729_529_562;
 /// The scene light of [BT2100], whose code is 1 at 1, at a code of 75 %: diffuse white.
 const HLG_WHITE: f64 = 0.264_962_560_421_007_2;
 
+/// Luminance of the display that HLG's nominal system gamma is for, in cd/m^2, and that gamma.
+pub(super) const HLG_PEAK: f64 = 1000.0;
+pub(super) const HLG_GAMMA: f64 = 1.2;
+
 /// The OETF of HLG of light whose white is coded 0.75; odd.
 pub(super) fn hlg_encode(linear: f64) -> f64 {
-    let light = linear.abs() * HLG_WHITE;
+    hlg_oetf(linear * HLG_WHITE)
+}
+
+pub(super) fn hlg_decode(coded: f64) -> f64 {
+    hlg_oetf_inverse(coded) / HLG_WHITE
+}
+
+/// The OETF of HLG, 1 at 1; odd.
+pub(super) fn hlg_oetf(linear: f64) -> f64 {
+    let light = linear.abs();
     let coded = if light <= 1.0 / 12.0 { (3.0 * light).sqrt() } else { HLG_A * (12.0 * light - HLG_B).ln() + HLG_C };
     coded.copysign(linear)
 }
 
-pub(super) fn hlg_decode(coded: f64) -> f64 {
+pub(super) fn hlg_oetf_inverse(coded: f64) -> f64 {
     let v = coded.abs();
     let light = if v <= 0.5 { v * v / 3.0 } else { (((v - HLG_C) / HLG_A).exp() + HLG_B) / 12.0 };
-    (light / HLG_WHITE).copysign(coded)
+    light.copysign(coded)
 }

@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result, bail};
 use onelight::baked::{Baked, EntryRange, FileFormat, Form, Recipe, ShaperChoice, Target, smallest_under};
-use onelight::{Look, Nodes, TransferCurve, Word as _};
+use onelight::{Look, Nodes, TableCoding, TransferCurve, Word as _};
 
 use super::arguments::Arguments;
 use crate::progress::bar;
@@ -113,6 +113,7 @@ fn recipe(arguments: &Arguments, film: &Look) -> Result<Recipe> {
         }
         None => {}
     }
+    let coding = if film.coding().curve.is_hdr() { TableCoding::Display } else { TableCoding::Density };
     let usual = match (arguments.shaper, film) {
         (Some(shaper), _) => Recipe::taking(shaper),
         (None, Look::Print(_)) if form == Form::Plain => Recipe::taking(ShaperChoice::Cineon),
@@ -129,7 +130,7 @@ fn recipe(arguments: &Arguments, film: &Look) -> Result<Recipe> {
         entries: arguments.entries.unwrap_or(usual.entries),
         storage: arguments.storage.unwrap_or(usual.storage),
         range: if arguments.unclamped { EntryRange::Any } else { EntryRange::Unit },
-        coding: arguments.coding.unwrap_or(usual.coding),
+        coding: arguments.coding.unwrap_or(coding),
         nodes: arguments.nodes.unwrap_or(usual.nodes),
         ..usual
     })

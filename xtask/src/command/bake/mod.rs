@@ -61,6 +61,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     let mut json = json(process, &tables);
     if !arguments.quick {
         files.add("look.json", serde_json::to_vec_pretty(&json)?);
+        files.add("chart.png", clock.time("chart", || preview::chart(&tables[0].baked))?);
         files.add("preview.png", clock.time("preview", || preview::sheet(&tables[0].baked))?);
     }
     let written = clock.time("save", || files.write())?;

@@ -4,7 +4,7 @@ use anyhow::{Context, Result, bail};
 use clap::ValueEnum;
 use indicatif::ProgressBar;
 use onelight::baked::{self, Baked, Recipe, ShaperChoice};
-use onelight::{FilmEffects, FilmSteps, Look, Process, Reference, Uncertainty, WideGamut};
+use onelight::{FilmEffects, FilmSteps, Look, Process, Reference, TableCoding, Uncertainty, WideGamut};
 use onelight_picture::Band;
 use rayon::prelude::*;
 
@@ -60,6 +60,8 @@ impl Film {
         };
         let recipe = |form| match exact {
             Look::Print(_) if form == baked::Form::Plain => Recipe::taking(ShaperChoice::Cineon),
+            // Densities are decoded by a power, PQ and HLG are none.
+            _ if exact.coding().curve.is_hdr() => Recipe { coding: TableCoding::Display, ..Recipe::of(form) },
             _ => Recipe::of(form),
         };
         let baked = baked.map(|form| exact.baked(&recipe(form))).transpose()?;

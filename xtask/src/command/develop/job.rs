@@ -264,6 +264,9 @@ fn write<T>(
     let transfer = match spaces.output_coding {
         TransferCurve::Srgb => OutputTransfer::Srgb,
         TransferCurve::Gamma24 => OutputTransfer::Gamma24,
+        TransferCurve::Gamma26 => OutputTransfer::Gamma26,
+        TransferCurve::Pq => OutputTransfer::Pq,
+        TransferCurve::Hlg => OutputTransfer::Hlg,
         TransferCurve::Linear => OutputTransfer::Linear,
     };
     let tag = Some(ColourTag { transfer, primaries });

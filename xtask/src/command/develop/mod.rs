@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use clap::Args;
-use onelight::{Process, TransferCurve, Word};
+use onelight::{ColourSpaces, Process, TransferCurve, Word};
 use onelight_picture::{Band, Description, Limits};
 use serde_json::json;
 
@@ -116,7 +116,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         sequence::check_exposure(plan, arguments.ev.unwrap_or_default())?;
     }
     let mut notes = Vec::new();
-    let target = arguments.out.target(&arguments.output, &mut notes)?;
+    let mut target = arguments.out.target(&arguments.output, &mut notes)?;
     if same_file(&arguments.input, &arguments.output) {
         bail!(
             "{}: the output would replace the picture it is made from, expected another name",
@@ -128,7 +128,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     if target.is_linear() && spaces.output_coding != TransferCurve::Linear {
         let what = if target == Target::Exr { "an EXR" } else { "a TIFF of floats" };
         notes.push(format!("{what} holds linear light: not coded by {}", spaces.output_coding.word()));
-        spaces.output_coding = TransferCurve::Linear;
+        if spaces.output_coding.is_hdr() {
+            notes.push(format!("(1, 1, 1) is {} cd/m2", spaces.white_luminance));
+        }
+        *spaces = ColourSpaces {
+            output_coding: TransferCurve::Linear,
+            white_luminance: ColourSpaces::default().white_luminance,
+            ..*spaces
+        };
+    }
+    if spaces.output_coding.is_hdr() {
+        target = arguments.out.for_hdr(target, spaces.output_coding, &arguments.output)?;
     }
     // What is typed takes the place of the look's own exposure.
     if arguments.ev.is_some() {

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use anyhow::{Result, bail};
 use clap::{Args, ValueEnum};
+use onelight::{TransferCurve, Word as _};
 use onelight_picture::{Dither, PngBits, TiffBits};
 
 /// The picture that goes out.
@@ -119,6 +120,22 @@ impl OutputArguments {
             notes.push("only 8 bits are dithered: --dither is not used".to_owned());
         }
         Ok(target)
+    }
+}
+
+impl OutputArguments {
+    /// The target for codes of absolute light: a PNG of 16 bits, which alone says what they are.
+    pub(super) fn for_hdr(&self, target: Target, coding: TransferCurve, path: &Path) -> Result<Target> {
+        let (name, word) = (path.display(), coding.word());
+        match target {
+            Target::Png(PngBits::Eight, _) if self.bits.is_some() => {
+                bail!("{name}: {word} has visible steps in 8 bits, expected --bits 16")
+            }
+            Target::Png(..) => Ok(Target::Png(PngBits::Sixteen, Dither::None)),
+            _ => bail!(
+                "{name}: only a PNG of 16 bits says that it is coded by {word}, expected .png, or .exr for linear light"
+            ),
+        }
     }
 }
 
