@@ -9,13 +9,11 @@ mod folders;
 mod look;
 mod own_stock;
 mod picture_file;
-mod plot;
 mod preview;
 mod progress;
 #[cfg_attr(feature = "gpu", allow(dead_code, reason = "a build with all measurements runs no other"))]
 mod rebuild;
 mod scene_colours;
-mod sheet;
 mod small_picture;
 mod switches;
 mod words;

@@ -9,7 +9,7 @@ use onelight::baked::{Baked, Chart};
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Chromaticity, RgbSpace};
 
-use crate::sheet::{BACKGROUND, caption, paste};
+use onelight_charts::{BACKGROUND, caption, paste};
 
 /// Exposures shown, in stops.
 const EXPOSURES: [f32; 3] = [-2.0, 0.0, 2.0];

@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use crate::atomic_file::write_atomically;
 #[cfg(not(feature = "measure"))]
 use crate::rebuild::{measured as fidelity, measured as certify};
-use crate::{Report, folders, plot};
+use crate::{Report, folders};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -47,6 +47,8 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
+/// Pictures in a row of a contact sheet.
+const COLUMNS: usize = 4;
 /// Colours drawn for the certificate of a pair.
 #[cfg(feature = "measure")]
 const COLOURS: usize = 1 << 12;
@@ -170,11 +172,11 @@ fn shown(arguments: &Arguments) -> Result<(String, Value)> {
     let (Some(picture), stocks) = (&arguments.sheet, chosen(arguments)?) else { bail!("--sheet needs a picture") };
     let tiles = contact_sheet::tiles(picture, &stocks)?;
     let folder = arguments.out.as_deref().map_or_else(|| folders::output("stocks"), folders::make)?;
-    let name = arguments.kind.as_deref().or(arguments.maker.as_deref()).unwrap_or("all");
-    let file = folder.join(format!("{}.png", name.to_lowercase()));
-    let png = contact_sheet::png(&tiles)?;
+    let name = arguments.kind.as_deref().or(arguments.maker.as_deref()).unwrap_or("all").to_lowercase();
+    let file = folder.join(format!("{name}.png"));
+    let png = onelight_charts::contact_sheet(&name, COLUMNS, &tiles)?;
     write_atomically(&file, |mut out| Ok(std::io::Write::write_all(&mut out, &png)?))?;
-    let looks: Vec<&str> = tiles.pictures.iter().map(|(name, _)| name.as_str()).collect();
+    let looks: Vec<String> = tiles.iter().map(|tile| tile.captions.join(" ").trim_end().to_owned()).collect();
     let text = format!("{}\n{}\n", looks.join("\n"), folders::shown(&file));
     Ok((text, json!({ "looks": looks, "file": folders::shown(&file) })))
 }
@@ -183,7 +185,8 @@ fn one(id: &str, out: Option<&Path>) -> Result<(String, Value)> {
     let stock = stock(id)?;
     let folder = out.map_or_else(|| folders::output("stocks"), folders::make)?;
     let file = folder.join(format!("{id}.svg"));
-    plot::write(&file, &stock)?;
+    let svg = onelight_charts::stock_plot(&stock)?;
+    write_atomically(&file, |mut out| Ok(std::io::Write::write_all(&mut out, svg.as_bytes())?))?;
     let uncertainty = stock.uncertainty();
     let mut text = format!("{}\n", stock.name());
     let mut line = |what: &str, value: String| {

@@ -27,7 +27,7 @@ const LIBRARY: Layer = Layer { folder: "", allowed: &[], foreign: &[], wgpu: Wgp
 const PROGRAM: Layer = Layer { is_library: false, ..LIBRARY };
 
 /// Every package. What is below is never above: the order is that of ARCHITECTURE.md.
-const LAYERS: [Layer; 15] = [
+const LAYERS: [Layer; 16] = [
     Layer {
         folder: "crates/spectra",
         foreign: &["film", "emulsion", "printer", "stock", "negative_stock", "halide"],
@@ -56,6 +56,12 @@ const LAYERS: [Layer; 15] = [
         folder: "crates/spatial",
         allowed: &["onelight-spectra", "onelight-film"],
         foreign: &["wgpu", "lut", "printer", "projector", "kodak", "fuji"],
+        ..LIBRARY
+    },
+    Layer {
+        folder: "crates/charts",
+        allowed: &["onelight-film"],
+        foreign: &["wgpu", "lut", "kodak", "fuji"],
         ..LIBRARY
     },
     Layer { folder: "crates/gpu", allowed: &["onelight-lut", "onelight-spatial"], wgpu: Wgpu::Always, ..LIBRARY },
@@ -94,6 +100,7 @@ const LAYERS: [Layer; 15] = [
             "onelight-lut",
             "onelight-gpu",
             "onelight-formats",
+            "onelight-charts",
             "onelight-picture",
             "onelight-fixtures",
             "onelight-benches",

@@ -3,9 +3,9 @@
 use anyhow::Result;
 use onelight::Look;
 use onelight_benches::buffers::{CASES, Case, largest_step};
+use onelight_charts::Tile;
 
-use super::contact_sheet::{Tile, coded};
-use super::develop::{Distance, differences};
+use super::develop::{Distance, coded, differences};
 use super::frame::WIDTH;
 
 /// Rows of a ramp, and its ends in stops about mid grey.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use anyhow::Result;
 use onelight::spectra::{DisplayDifference, DisplayLinear, RgbSpace};
-use onelight::{Films, Look, ProcessKeys};
+use onelight::{Films, Look, ProcessKeys, TransferCurve};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -67,6 +67,11 @@ fn picture(look: &Look, frame: &Frame, ev: i32) -> Vec<[f32; 3]> {
     let scale = f64::from(ev).exp2();
     let develop = |rgb: &[f32; 3]| look.develop_linear(rgb.map(|v| f64::from(v) * scale)).map(|v| v as f32);
     frame.colours.par_iter().map(develop).collect()
+}
+
+/// Display-linear sRGB to display-coded.
+pub(super) fn coded(linear: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    linear.iter().map(|rgb| rgb.map(|v| TransferCurve::Srgb.encode(f64::from(v)) as f32)).collect()
 }
 
 /// Difference of two pictures: CIEDE2000 of the display colours, clipped to the display.

@@ -11,7 +11,7 @@ use crate::command::develop::exposure::Exposure;
 use crate::small_picture::SmallPicture;
 
 /// Width of a tile in pixels; height of the scene's.
-pub(super) const WIDTH: usize = 288;
+pub(super) const WIDTH: usize = onelight_charts::TILE_WIDTH;
 const SCENE_HEIGHT: usize = 162;
 /// A picture of the user's taller than this is made narrower instead.
 const MAX_HEIGHT: usize = 320;

@@ -1,5 +1,4 @@
 mod banding;
-mod contact_sheet;
 mod develop;
 mod frame;
 mod page;
@@ -9,6 +8,7 @@ use std::fmt::Write as _;
 
 use anyhow::Result;
 use onelight::Process;
+use onelight_charts::{Tile, contact_sheet, difference_map};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -16,8 +16,7 @@ use super::Arguments;
 use crate::atomic_file::AtomicFiles;
 use crate::progress::{Clock, bar};
 use crate::{Report, folders};
-use contact_sheet::{Tile, coded};
-use develop::{Darkroom, Developed, Distance, differences, on_chart};
+use develop::{Darkroom, Developed, Distance, coded, differences, on_chart};
 use frame::Frame;
 use page::{Row, Section};
 use plan::Sheet;
@@ -97,7 +96,7 @@ struct Draft {
 impl Draft {
     fn drawn(self) -> Result<Section> {
         let Self { mut section, columns, tiles } = self;
-        section.png = contact_sheet::sheet(&section.title, columns, &tiles)?;
+        section.png = contact_sheet(&section.title, columns, &tiles)?;
         Ok(section)
     }
 }
@@ -119,7 +118,7 @@ fn draft(darkroom: &mut Darkroom, frame: &Frame, sheet: &Sheet, chart: &[[f64; 3
                         here: Distance::of(&differences),
                         chart: looks.map(|(plain, turned)| on_chart(plain, turned, chart)).transpose()?,
                         note: String::new(),
-                        picture: Some(contact_sheet::differences(frame.width as u32, &differences)?),
+                        picture: Some(difference_map(frame.width as u32, &differences)?),
                     })
                 }
                 _ => None,
@@ -161,7 +160,7 @@ fn bands(darkroom: &mut Darkroom) -> Result<Section> {
     };
     Ok(Section {
         file: BANDING.to_owned(),
-        png: contact_sheet::sheet(&title, 4, &tiles)?,
+        png: contact_sheet(&title, 4, &tiles)?,
         text: "A ramp from -7 to +3 stops through K-negative, grey and warm, and its dark part with the contrast stretched. The \
                talk's scale factor lifts the scene in the 10-bit float out of its coarse denormals: its steps fall to a third."
             .to_owned(),

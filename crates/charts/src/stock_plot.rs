@@ -1,17 +1,13 @@
 //! The three sets of curves of a stock, as SVG.
 
-use std::io::Write as _;
 use std::ops::Range;
-use std::path::Path;
 
-use anyhow::{Result, anyhow};
-use onelight::Stock;
-use onelight::film::{Densitometry, ExposureAxis, LogExposure, Tail};
+use onelight_film::{Densitometry, ExposureAxis, LogExposure, Stock, Tail};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::atomic_file::write_atomically;
+use crate::error::Error;
 
 const SIZE: (u32, u32) = (1500, 500);
 const RED: RGBColor = RGBColor(196, 48, 40);
@@ -35,11 +31,31 @@ struct Panel {
     mark: Option<(f64, &'static str)>,
 }
 
-/// Writes a stock's plot as SVG.
-pub(crate) fn write(path: &Path, stock: &Stock) -> Result<()> {
+/// The curves of a stock as the text of an SVG, 1500 x 500: log10 sensitivity over wavelength in nm, density over log10 exposure, and
+/// the densities of the dyes over wavelength. Camera films have the exposure of an 18 % grey card marked.
+///
+/// ```
+/// # use onelight_charts::stock_plot;
+/// # use onelight_film::{SheetText, Stock};
+/// # let files = onelight_stocks::find("kodak-5207").ok_or("no such stock")?;
+/// # let stock = Stock::parse(&SheetText {
+/// #     id: files.id,
+/// #     stock_toml: files.stock_toml,
+/// #     sensitivity_csv: files.sensitivity_csv,
+/// #     characteristic_csv: files.characteristic_csv,
+/// #     dye_density_csv: files.dye_density_csv,
+/// # })?;
+/// let svg = stock_plot(&stock)?;
+/// assert!(svg.contains("red layer") && svg.contains("18 % grey"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// If the library that draws fails, which no data sheet that was read is known to make it.
+pub fn stock_plot(stock: &Stock) -> Result<String, Error> {
     let mut svg = String::new();
-    draw(&mut svg, stock).map_err(|error| anyhow!("{}: the plot cannot be drawn: {error}", path.display()))?;
-    write_atomically(path, |file| Ok(file.write_all(svg.as_bytes())?))
+    draw(&mut svg, stock).map_err(|error| Error(format!("{}: its curves cannot be drawn: {error}", stock.id())))?;
+    Ok(svg)
 }
 
 fn draw(svg: &mut String, stock: &Stock) -> Result<(), Box<dyn std::error::Error>> {
@@ -169,18 +185,27 @@ impl Panel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use onelight::{stock, stock_ids};
+    use onelight_film::SheetText;
 
     #[test]
     fn every_plot_names_its_curves_and_axes_and_marks_the_grey_of_camera_films() {
-        for id in stock_ids() {
-            let stock = stock(id).unwrap();
-            let mut svg = String::new();
-            draw(&mut svg, &stock).unwrap();
+        for files in onelight_stocks::ALL {
+            let (id, stock) = (
+                files.id,
+                Stock::parse(&SheetText {
+                    id: files.id,
+                    stock_toml: files.stock_toml,
+                    sensitivity_csv: files.sensitivity_csv,
+                    characteristic_csv: files.characteristic_csv,
+                    dye_density_csv: files.dye_density_csv,
+                })
+                .unwrap(),
+            );
+            let svg = stock_plot(&stock).unwrap();
             for text in ["red layer", "wavelength (nm)", "density (", "log10 exposure (", "log10 sensitivity ("] {
                 assert!(svg.contains(text), "{id}: {text}");
             }
-            assert_eq!(svg.contains("density (status "), stock.image() == onelight::Image::Dye, "{id}");
+            assert_eq!(svg.contains("density (status "), stock.image() == onelight_film::Image::Dye, "{id}");
             assert_eq!(svg.contains("18 % grey"), stock.kind().is_camera_film(), "{id}");
             assert_eq!(svg.contains("(cm\u{b2}/erg)"), stock.criterion().is_some(), "{id}");
             assert!(!svg.contains("NaN") && svg.trim_end().ends_with("</svg>"), "{id}");
