@@ -59,6 +59,8 @@ enum Command {
     Light(command::light::Arguments),
     /// Put the looks and switches of the talk side by side, and a look of your own beside the films: contact sheets and a page
     Compare(command::compare::Arguments),
+    /// Build the darkroom, a page for the browser to see a picture on every film: target/onelight/darkroom
+    Darkroom(command::darkroom::Arguments),
     /// Check the layers of the workspace against ARCHITECTURE.md
     Tidy(command::tidy::Arguments),
 }
@@ -96,6 +98,7 @@ fn run(command: Command) -> Result<Report> {
         Command::Fixtures(arguments) => command::fixtures::run(&arguments),
         Command::Light(arguments) => command::light::run(&arguments),
         Command::Compare(arguments) => command::compare::run(&arguments),
+        Command::Darkroom(arguments) => command::darkroom::run(&arguments),
         Command::Tidy(arguments) => command::tidy::run(&arguments),
     }
 }

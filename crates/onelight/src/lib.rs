@@ -116,6 +116,7 @@ mod gamut_effect;
 mod input_coding;
 mod look;
 mod message;
+mod meter;
 mod pairs;
 mod process;
 mod process_keys;
@@ -133,6 +134,7 @@ pub use films::Films;
 pub use gamut_effect::GamutEffect;
 pub use input_coding::InputCoding;
 pub use look::{FirstApproach, Look, PostColour, PrintedScan, Texels, ToneCurve, ToneMapped};
+pub use meter::Meter;
 pub use onelight_film as film;
 pub use onelight_film::{
     DyeModel, Image, InterImage, Matching, PrintCurves, SheetText, Stock, StockKind, Tail, WideGamut,

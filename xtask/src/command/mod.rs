@@ -3,6 +3,7 @@
 pub(crate) mod bake;
 pub(crate) mod certify;
 pub(crate) mod compare;
+pub(crate) mod darkroom;
 pub(crate) mod develop;
 pub(crate) mod fidelity;
 pub(crate) mod fixtures;

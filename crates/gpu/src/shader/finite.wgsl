@@ -12,6 +12,7 @@ fn onelight_finite(v: vec3f) -> vec3f {
     let bits = bitcast<vec3u>(v);
     let magnitude = bits & vec3u(~ONELIGHT_SIGN_BIT);
     let nan = magnitude > vec3u(ONELIGHT_INFINITY_BITS);
-    let held = select(min(magnitude, vec3u(ONELIGHT_INPUT_MAX_BITS)), vec3u(0u), nan);
+    // A product, as GLSL ES 3.00 selects among floats alone.
+    let held = min(magnitude, vec3u(ONELIGHT_INPUT_MAX_BITS)) * vec3u(!nan);
     return bitcast<vec3f>(held | (bits & vec3u(ONELIGHT_SIGN_BIT)));
 }

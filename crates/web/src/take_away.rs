@@ -1,0 +1,268 @@
+//! What is taken away: the picture whole, and the look as files for other programs.
+
+use std::io::Cursor;
+
+use onelight::baked::{Baked, BakedFile, Target, ocio_config};
+use onelight::certify::{Certifier, CertifySettings};
+use onelight::lut::PixelMap as _;
+use onelight::spectra::Chromaticity;
+use onelight::{Process, TransferCurve, Word as _};
+use onelight_picture::{
+    BandSink, Channels, Chromaticities, ColourTag, Description, Dither, JpegSettings, Limits, OutputTransfer, PngBits,
+    PngSettings, TiffBits, TiffSettings, open, write_exr, write_jpeg, write_png, write_tiff,
+};
+
+use crate::error::Error;
+use crate::film_look::FilmLook;
+use crate::keys::Keys;
+use crate::light::Light;
+
+/// A kind of picture that is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PictureKind {
+    /// 8 bits, dithered.
+    Png8,
+    /// 16 bits.
+    Png16,
+    /// 16 bits.
+    Tiff16,
+    /// Display-linear floats, not clipped.
+    Exr,
+    /// 8 bits, of quality 95.
+    Jpeg,
+}
+
+impl PictureKind {
+    /// The kind for the page's word: `png8`, `png16`, `tiff16`, `exr`, `jpeg`.
+    ///
+    /// # Errors
+    /// If there is no such word.
+    pub fn parse(word: &str) -> Result<Self, Error> {
+        match word {
+            "png8" => Ok(Self::Png8),
+            "png16" => Ok(Self::Png16),
+            "tiff16" => Ok(Self::Tiff16),
+            "exr" => Ok(Self::Exr),
+            "jpeg" => Ok(Self::Jpeg),
+            _ => Err(Error::format(word)),
+        }
+    }
+}
+
+/// Develops the picture in a file into another, `ev` stops brighter: what `cargo xtask develop` does. The look's own exposure counts too,
+/// and is best 0. `progress` gets the share that is done.
+///
+/// ```
+/// use std::io::Cursor;
+/// use onelight_picture::{Limits, Picture, Source};
+/// use onelight_web::{FilmLook, Keys, PictureKind, develop_file};
+/// # let mut grey = Cursor::new(Vec::new());
+/// # Picture::opaque(3, 2, vec![[0.18; 3]; 6], Source::Exr).write_exr(&mut grey, &[])?;
+/// # let grey = grey.into_inner();
+/// let keys = Keys::from_json("{}")?;
+/// let png = develop_file(grey, "grey.exr", &keys, &FilmLook::new(&keys)?, 0.0, PictureKind::Png16, &mut |_| {})?;
+/// let picture = Picture::read(Cursor::new(png), "grey.png", Limits::default())?;
+/// assert!((picture.rgb[0][1] - 0.4845).abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// If the file is no picture, or the look cannot be made.
+pub fn develop_file(
+    file: Vec<u8>,
+    name: &str,
+    keys: &Keys,
+    look: &FilmLook,
+    ev: f64,
+    kind: PictureKind,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Vec<u8>, Error> {
+    let linear = match kind {
+        PictureKind::Exr => Some(FilmLook::new(&keys.with_coding(TransferCurve::Linear))?),
+        _ => None,
+    };
+    let look = linear.as_ref().unwrap_or(look);
+    let direct = look.direct()?;
+    let mut reader = open(Cursor::new(file), name, Limits::default())?;
+    let description = reader.description().clone();
+    let light = Light::new(&description, look.process().spaces().input_space, &mut Vec::new())?;
+    let opaque = kind == PictureKind::Jpeg;
+    let written = written(&description, look.process(), opaque);
+    let fill = |sink: &mut dyn BandSink| {
+        while let Some(band) = reader.next_band()? {
+            if opaque {
+                over_black(band);
+            }
+            light.of(band, ev, None);
+            direct.map_colours(band.rgb_mut());
+            sink.write(band.view())?;
+            progress((band.top() + band.rows()) as f64 / description.height.max(1) as f64);
+        }
+        Ok::<(), Error>(())
+    };
+    let toml = keys.with_ev(ev).to_toml();
+    let software = format!("onelight {}", env!("CARGO_PKG_VERSION"));
+    let texts = [("Software", software.as_str()), ("onelight look", toml.as_str())];
+    let tag = Some(tag(look.process()));
+    let (mut to, dither) = (Cursor::new(Vec::new()), Dither::Pattern);
+    match kind {
+        PictureKind::Exr => write_exr(&mut to, &written, &texts, fill)?,
+        PictureKind::Png8 => {
+            write_png(&mut to, &written, PngSettings { bits: PngBits::Eight, tag, dither }, &texts, fill)?;
+        }
+        PictureKind::Png16 => {
+            write_png(&mut to, &written, PngSettings { bits: PngBits::Sixteen, tag, dither }, &texts, fill)?;
+        }
+        PictureKind::Tiff16 => {
+            write_tiff(&mut to, &written, TiffSettings { bits: TiffBits::Sixteen, tag, dither }, &texts, fill)?;
+        }
+        PictureKind::Jpeg => {
+            write_jpeg(&mut to, &written, JpegSettings { tag, dither, ..JpegSettings::default() }, &texts, fill)?;
+        }
+    }
+    Ok(to.into_inner())
+}
+
+/// A JPEG has no alpha: a picture with alpha lies over black, before it is coded light.
+fn over_black(band: &mut onelight_picture::Band) {
+    let Some(alpha) = band.alpha().map(<[f32]>::to_vec) else { return };
+    for (rgb, alpha) in band.rgb_mut().iter_mut().zip(alpha) {
+        let covers = if alpha.is_finite() { alpha.clamp(0.0, 1.0) } else { 0.0 };
+        *rgb = rgb.map(|v| v * covers);
+    }
+    band.leave_out_alpha();
+}
+
+fn written(scene: &Description, process: &Process, opaque: bool) -> Description {
+    let channels = if opaque { Channels::Rgb } else { scene.channels };
+    Description { primaries: Some(tag(process).primaries), channels, ..scene.clone() }
+}
+
+fn tag(process: &Process) -> ColourTag {
+    let spaces = process.spaces();
+    let space = spaces.output_space.space();
+    let xy = |c: Chromaticity| [c.x as f32, c.y as f32];
+    let [red, green, blue] = space.primaries.map(xy);
+    let transfer = match spaces.output_coding {
+        TransferCurve::Srgb => OutputTransfer::Srgb,
+        TransferCurve::Gamma24 => OutputTransfer::Gamma24,
+        TransferCurve::Gamma26 => OutputTransfer::Gamma26,
+        TransferCurve::Pq => OutputTransfer::Pq,
+        TransferCurve::Hlg => OutputTransfer::Hlg,
+        TransferCurve::Linear => OutputTransfer::Linear,
+    };
+    ColourTag { transfer, primaries: Chromaticities { red, green, blue, white: xy(space.white) } }
+}
+
+/// Files of a look for one program, with what is to be known of them.
+#[derive(Debug, Clone)]
+pub struct ForProgram {
+    /// The files, each with its name: tables, the description, the certificate, and a configuration where the program wants one.
+    pub files: Vec<BakedFile>,
+    /// How the program loads them, a line for each table.
+    pub load: Vec<&'static str>,
+}
+
+/// Bakes a look for a program, as `cargo xtask bake --for` does, and certifies each table. `progress` gets the share that is done.
+///
+/// # Errors
+/// If there is no such program (`for` of [`choices`](crate::choices)), or the look cannot be baked for it.
+pub fn bake_for(
+    keys: &Keys,
+    program: &str,
+    settings: &CertifySettings,
+    progress: &mut dyn FnMut(f64),
+) -> Result<ForProgram, Error> {
+    let target = Target::parse(program)?;
+    let tables = target.tables();
+    let mut found = ForProgram { files: Vec::new(), load: Vec::new() };
+    let mut certificate = String::new();
+    let steps = 2.0 * tables.len() as f64;
+    for (place, table) in tables.iter().enumerate() {
+        let keys = target.usual_coding().map_or_else(|| keys.clone(), |coding| keys.with_coding(coding));
+        let look = keys.process()?.look()?;
+        let baked = look.baked(&table.recipe)?;
+        progress((2 * place + 1) as f64 / steps);
+        let certifier = Certifier::new(&look)?.within_coding(baked.coordinate());
+        let written = baked.as_written(table.format)?;
+        let report = certifier.report(|rgb| written.apply(rgb), baked.gamut(), settings)?;
+        let comments = baked.comments(Some(&report.summary()));
+        let files = baked.files(table.format, &comments)?;
+        if target.takes_ocio_config()
+            && let Some(file) = files.first()
+        {
+            let bytes = config(&baked, &file.name)?;
+            found.files.push(BakedFile { name: "look.ocio".to_owned(), bytes });
+        }
+        let names: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
+        certificate += &format!("{}: {}\n  {}\n{report}\n", names.join(", "), baked.describe(), table.load);
+        found.files.extend(files);
+        found.load.push(table.load);
+        progress((2 * place + 2) as f64 / steps);
+    }
+    found.files.push(BakedFile { name: "look.toml".to_owned(), bytes: keys.to_toml().into_bytes() });
+    found.files.push(BakedFile { name: "certificate.txt".to_owned(), bytes: certificate.into_bytes() });
+    Ok(found)
+}
+
+fn config(baked: &Baked, file: &str) -> Result<Vec<u8>, Error> {
+    let comments = [format!("{}: {file}", baked.title()), format!("  {}", baked.output_in_words())];
+    Ok(ocio_config(&[(baked, file)], &comments)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use onelight::formats::CubeFile;
+    use onelight::lut::{SamplingLaw, Search};
+    use onelight_picture::{Picture, Source};
+
+    use super::*;
+
+    fn scene() -> Vec<u8> {
+        let rgb = (0..64).map(|i| [0.02 * i as f32, 0.01 * (64 - i) as f32, 0.3]).collect();
+        let picture = Picture { alpha: Some(vec![1.0; 64]), ..Picture::opaque(8, 8, rgb, Source::Exr) };
+        let mut file = Cursor::new(Vec::new());
+        picture.write_exr(&mut file, &[]).unwrap();
+        file.into_inner()
+    }
+
+    #[test]
+    fn every_kind_of_picture_holds_the_film() {
+        let keys = Keys::from_json("{}").unwrap();
+        let look = FilmLook::new(&keys).unwrap();
+        let exact = look.exact().unwrap().develop([0.02 * 9.0 * 2.0, 0.01 * 55.0 * 2.0, 0.6]);
+        for (word, tolerance) in
+            [("png8", 1.1 / 255.0), ("png16", 5e-4), ("tiff16", 5e-4), ("exr", 5e-4), ("jpeg", 8.0 / 255.0)]
+        {
+            let mut shares = Vec::new();
+            let kind = PictureKind::parse(word).unwrap();
+            let file = develop_file(scene(), "a.exr", &keys, &look, 1.0, kind, &mut |done| shares.push(done)).unwrap();
+            assert_eq!(shares, [1.0], "{word}");
+            let picture = Picture::read(Cursor::new(file), word, Limits::default()).unwrap();
+            assert_eq!((picture.width, picture.height, picture.alpha.is_some()), (8, 8, word != "jpeg"), "{word}");
+            for (found, expected) in picture.rgb[9].iter().zip(exact) {
+                let expected = if word == "exr" { TransferCurve::Srgb.decode(expected) } else { expected };
+                assert!((f64::from(*found) - expected).abs() < tolerance, "{word}: {:?} {exact:?}", picture.rgb[9]);
+            }
+        }
+        assert!(PictureKind::parse("gif").is_err());
+    }
+
+    #[test]
+    fn what_is_baked_is_certified_and_read_back() {
+        let keys = Keys::from_json(r#"{ "camera": "fuji-velvia-50" }"#).unwrap().fitting().unwrap();
+        let law = SamplingLaw { count: 1 << 8, ..SamplingLaw::default() };
+        let settings = CertifySettings { law, search: Search::SamplesOnly };
+        let mut done = Vec::new();
+        let found = bake_for(&keys, "ffmpeg", &settings, &mut |share| done.push(share)).unwrap();
+        assert_eq!(done, [0.5, 1.0]);
+        let names: Vec<&str> = found.files.iter().map(|file| file.name.as_str()).collect();
+        assert_eq!(names, ["look.srgb.cube", "look.toml", "certificate.txt"]);
+        let cube = CubeFile::read(&found.files[0].bytes[..]).unwrap();
+        let grey = cube.apply([0.461; 3], onelight::lut::Interpolation::Tetrahedral);
+        assert!(grey.iter().all(|v| (v - 0.4845).abs() < 0.02), "{grey:?}");
+        let certificate = String::from_utf8(found.files[2].bytes.clone()).unwrap();
+        assert!(certificate.contains("certificate: CIEDE2000"), "{certificate}");
+        assert!(bake_for(&keys, "photoshop", &settings, &mut |_| {}).is_err());
+    }
+}
