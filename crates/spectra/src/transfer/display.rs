@@ -20,11 +20,11 @@ pub enum TransferCurve {
     Gamma24,
     /// A power of 2.6: digital cinema (\[RP431-2\]).
     Gamma26,
-    /// The perceptual quantiser of \[ST2084\], linear 1 being 203 cd/m^2 ([`DisplayCoding`] has others). Odd; light above 10000 cd/m^2 has
+    /// The perceptual quantiser of \[ST2084\], linear 1 being 203 cd/m^2 ([`DisplayCoding`](crate::DisplayCoding) has others). Odd; light above 10000 cd/m^2 has
     /// its code.
     Pq,
     /// Hybrid Log-Gamma (\[BT2100\]) of a grey on a display of 1000 cd/m^2, linear 1 being 203 cd/m^2. Of colours each channel depends on the
-    /// others: [`DisplayCoding`] knows how.
+    /// others: [`DisplayCoding`](crate::DisplayCoding) knows how.
     Hlg,
 }
 
