@@ -15,7 +15,8 @@ fn a_look_is_baked_saved_and_baked_again() {
     let json: serde_json::Value = serde_json::from_str(&first).unwrap();
     assert_eq!(json["process"]["camera"], "kodak-portra-400");
     assert!(json["certificate"]["max_found"].as_f64().unwrap() > 0.0);
-    let names = ["look.json", "look.scene-linear.resolve.cube", "look.srgb.cube", "look.toml", "preview.png"];
+    let names =
+        ["chart.png", "look.json", "look.scene-linear.resolve.cube", "look.srgb.cube", "look.toml", "preview.png"];
     assert_eq!(files(&folder.join("a")), names);
     done(folder, &["bake", "--look", "a/look.toml", "--size", "9", "--out", "b"]);
     for name in names {
@@ -53,7 +54,7 @@ fn the_direct_form_is_baked_chosen_and_refused() {
     let folder = folder.path();
     let json = |text: &str| -> serde_json::Value { serde_json::from_str(text).unwrap() };
     let baked = json(&done(folder, &["bake", "--form", "direct", "--nodes", "7,3", "--out", "a", "--json"]));
-    assert_eq!(files(&folder.join("a")), ["look.direct.json", "look.json", "look.toml", "preview.png"]);
+    assert_eq!(files(&folder.join("a")), ["chart.png", "look.direct.json", "look.json", "look.toml", "preview.png"]);
     assert!(baked["certificate"]["max_found"].as_f64().unwrap() < 0.4, "{}", baked["certificate"]["max_found"]);
     let file = json(&fs::read_to_string(folder.join("a/look.direct.json")).unwrap());
     assert_eq!(file["projection"].as_array().unwrap().len(), 7);
