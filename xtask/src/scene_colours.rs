@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
-use onelight::Process;
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Chromaticity, RgbSpace};
-use onelight_picture::{Chromaticities, Limits, PictureReader, Source};
+use onelight::{Process, space_of};
+use onelight_picture::{Limits, PictureReader, Source};
 
 use crate::picture_file::open;
 
@@ -41,26 +41,6 @@ pub(crate) fn to_input_space(own: Option<&RgbSpace>, process: &Process) -> Resul
     let Some(own) = own else { return Ok(None) };
     let matrix = own.to_about(&process.spaces().input_space.space(), Chromaticity::black_body_6500_k());
     matrix.map(Some).context("its chromaticities make no colour space")
-}
-
-/// The space of chromaticities as a file gives them; that of a standard where they are its own, rounded.
-pub(crate) fn space_of(c: &Chromaticities) -> RgbSpace {
-    let standards = [
-        (Chromaticities::BT709, RgbSpace::SRGB),
-        (Chromaticities::P3_D65, RgbSpace::DISPLAY_P3),
-        (Chromaticities::BT2020, RgbSpace::REC2020),
-        (Chromaticities::AP1, RgbSpace::ACESCG),
-        (Chromaticities::AP0, RgbSpace::ACES2065_1),
-        (Chromaticities::P3_DCI, RgbSpace::DCI_P3),
-        (Chromaticities::ADOBE_RGB, RgbSpace::ADOBE_RGB),
-        (Chromaticities::XYZ, RgbSpace::XYZ),
-    ];
-    if let Some((_, space)) = standards.iter().find(|(standard, _)| standard.is_near(c)) {
-        return *space;
-    }
-    let xy = |[x, y]: [f32; 2]| (f64::from(x), f64::from(y));
-    let white = Chromaticity::new(f64::from(c.white[0]), f64::from(c.white[1]));
-    RgbSpace::new([xy(c.red), xy(c.green), xy(c.blue)], white)
 }
 
 /// About `count` colours of a picture, as far apart as can be in the order of its rows.

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
-use onelight::Process;
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
+use onelight::{Process, space_of};
 use onelight_picture::{Limits, Source};
 
 use crate::picture_file::open;
-use crate::scene_colours::{space_of, to_input_space};
+use crate::scene_colours::to_input_space;
 
 /// Scene-linear, sRGB primaries, row by row.
 pub(crate) struct SmallPicture {

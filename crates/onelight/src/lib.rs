@@ -118,6 +118,8 @@ mod look;
 mod message;
 mod meter;
 mod pairs;
+#[cfg(feature = "picture")]
+mod picture_colours;
 mod process;
 mod process_keys;
 mod reference;
@@ -145,12 +147,16 @@ pub use onelight_formats as formats;
 pub use onelight_gpu as gpu;
 pub use onelight_lut as lut;
 pub use onelight_lut::{Channels, PixelMap, Pixels, PixelsMut};
+#[cfg(feature = "picture")]
+pub use onelight_picture as picture;
 pub use onelight_printing as printing;
 pub use onelight_printing::{Aim, Calibration, Filters, HeatGlass, Infrared, PrinterLight, Projector, White, Wratten};
 pub use onelight_spatial as spatial;
 pub use onelight_spectra as spectra;
 pub use onelight_spectra::{DisplayLinear, Reconstruction, TransferCurve};
 pub use pairs::{looks_with, pairs};
+#[cfg(feature = "picture")]
+pub use picture_colours::{colour_tag, space_of};
 pub use process::{
     Approach, ColourSpaces, DEFAULT_CAMERA, DEFAULT_PRINT, DEFAULT_SILVER_PRINT, EffectChoice, Effects, FilmProcess,
     FirstControls, FirstProcess, InterImageChoice, OwnSheet, PrintAlone, Printing, Process, StockRef, ToneMapping,

@@ -62,7 +62,7 @@ pub fn films() -> Result<Vec<Film>, Error> {
 
 fn described(film: &Stock, all: &[Stock]) -> Film {
     let kind = film.kind();
-    let printed = |print: &&Stock| kind.printed_on().contains(&print.kind()) && film.is_printed_on(print);
+    let printed = |print: &&Stock| film.is_printed_on(print);
     Film {
         id: film.id().to_owned(),
         name: film.name().to_owned(),

@@ -2,8 +2,8 @@
 
 use onelight::spectra::nalgebra::{Matrix3, Vector3};
 use onelight::spectra::{Chromaticity, RgbSpace, finite};
-use onelight::{Meter, WorkingSpace};
-use onelight_picture::{Band, Chromaticities, Description, Source, TiffSamples, Transfer, Tristimulus};
+use onelight::{Meter, WorkingSpace, space_of};
+use onelight_picture::{Band, Description, Source, TiffSamples, Transfer, Tristimulus};
 
 use crate::error::Error;
 
@@ -72,24 +72,4 @@ impl Light {
             }
         }
     }
-}
-
-/// The space of chromaticities as a file gives them; that of a standard where they are its own, rounded.
-fn space_of(c: &Chromaticities) -> RgbSpace {
-    let standards = [
-        (Chromaticities::BT709, RgbSpace::SRGB),
-        (Chromaticities::P3_D65, RgbSpace::DISPLAY_P3),
-        (Chromaticities::BT2020, RgbSpace::REC2020),
-        (Chromaticities::AP1, RgbSpace::ACESCG),
-        (Chromaticities::AP0, RgbSpace::ACES2065_1),
-        (Chromaticities::P3_DCI, RgbSpace::DCI_P3),
-        (Chromaticities::ADOBE_RGB, RgbSpace::ADOBE_RGB),
-        (Chromaticities::XYZ, RgbSpace::XYZ),
-    ];
-    if let Some((_, space)) = standards.iter().find(|(standard, _)| standard.is_near(c)) {
-        return *space;
-    }
-    let xy = |[x, y]: [f32; 2]| (f64::from(x), f64::from(y));
-    let white = Chromaticity::new(f64::from(c.white[0]), f64::from(c.white[1]));
-    RgbSpace::new([xy(c.red), xy(c.green), xy(c.blue)], white)
 }

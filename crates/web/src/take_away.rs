@@ -5,11 +5,10 @@ use std::io::Cursor;
 use onelight::baked::{Baked, BakedFile, Target, ocio_config};
 use onelight::certify::{Certifier, CertifySettings};
 use onelight::lut::PixelMap as _;
-use onelight::spectra::Chromaticity;
-use onelight::{Process, TransferCurve, Word as _};
+use onelight::{Process, TransferCurve, Word as _, colour_tag};
 use onelight_picture::{
-    BandSink, Channels, Chromaticities, ColourTag, Description, Dither, JpegSettings, Limits, OutputTransfer, PngBits,
-    PngSettings, TiffBits, TiffSettings, open, write_exr, write_jpeg, write_png, write_tiff,
+    BandSink, Channels, Description, Dither, JpegSettings, Limits, PngBits, PngSettings, TiffBits, TiffSettings, open,
+    write_exr, write_jpeg, write_png, write_tiff,
 };
 
 use crate::error::Error;
@@ -103,7 +102,7 @@ pub fn develop_file(
     let toml = keys.with_ev(ev).to_toml();
     let software = format!("onelight {}", env!("CARGO_PKG_VERSION"));
     let texts = [("Software", software.as_str()), ("onelight look", toml.as_str())];
-    let tag = Some(tag(look.process()));
+    let tag = Some(colour_tag(look.process().spaces()));
     let (mut to, dither) = (Cursor::new(Vec::new()), Dither::Pattern);
     match kind {
         PictureKind::Exr => write_exr(&mut to, &written, &texts, fill)?,
@@ -135,23 +134,7 @@ fn over_black(band: &mut onelight_picture::Band) {
 
 fn written(scene: &Description, process: &Process, opaque: bool) -> Description {
     let channels = if opaque { Channels::Rgb } else { scene.channels };
-    Description { primaries: Some(tag(process).primaries), channels, ..scene.clone() }
-}
-
-fn tag(process: &Process) -> ColourTag {
-    let spaces = process.spaces();
-    let space = spaces.output_space.space();
-    let xy = |c: Chromaticity| [c.x as f32, c.y as f32];
-    let [red, green, blue] = space.primaries.map(xy);
-    let transfer = match spaces.output_coding {
-        TransferCurve::Srgb => OutputTransfer::Srgb,
-        TransferCurve::Gamma24 => OutputTransfer::Gamma24,
-        TransferCurve::Gamma26 => OutputTransfer::Gamma26,
-        TransferCurve::Pq => OutputTransfer::Pq,
-        TransferCurve::Hlg => OutputTransfer::Hlg,
-        TransferCurve::Linear => OutputTransfer::Linear,
-    };
-    ColourTag { transfer, primaries: Chromaticities { red, green, blue, white: xy(space.white) } }
+    Description { primaries: Some(colour_tag(process.spaces()).primaries), channels, ..scene.clone() }
 }
 
 /// Files of a look for one program, with what is to be known of them.

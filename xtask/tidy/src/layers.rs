@@ -75,6 +75,7 @@ const LAYERS: [Layer; 18] = [
             "onelight-lut",
             "onelight-formats",
             "onelight-gpu",
+            "onelight-picture",
             "onelight-spatial",
             "onelight-stocks",
         ],

@@ -39,12 +39,12 @@ use crate::target::{Target, WriteMethod};
 /// let pass = SpatialPass::new(&gpu.device, &gpu.queue, &form, &stage, Rgba16Float)?;
 ///
 /// // In every frame, with the frame's own encoder and number.
-/// # let (hdr, display): (onelight_gpu::wgpu::TextureView, onelight_gpu::wgpu::TextureView) = todo!();
-/// # #[allow(unreachable_code)] {
-/// # let mut encoder = gpu.device.create_command_encoder(&Default::default());
-/// pass.set_frame(&gpu.queue, 1001);
-/// pass.encode(&mut encoder, &hdr, &display)?;
-/// # }
+/// # use onelight_gpu::wgpu::{CommandEncoder, TextureView};
+/// let frame = |encoder: &mut CommandEncoder, hdr: &TextureView, display: &TextureView, number: u32| {
+///     pass.set_frame(&gpu.queue, number);
+///     pass.encode(encoder, hdr, display)
+/// };
+/// # let _ = frame;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]

@@ -5,11 +5,10 @@ use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail};
 use indicatif::ProgressBar;
-use onelight::spectra::Chromaticity;
-use onelight::{EffectsRun, FirstLook, Process, TransferCurve};
+use onelight::{EffectsRun, FirstLook, Process, colour_tag};
 use onelight_picture::{
-    Band, BandSink, Channels, Chromaticities, ColourTag, Description, JpegSettings, Limits, Metadata, OutputTransfer,
-    PictureReader, PngSettings, TiffSettings, write_jpeg, write_png, write_tiff,
+    Band, BandSink, Channels, Description, JpegSettings, Limits, Metadata, PictureReader, PngSettings, TiffSettings,
+    write_jpeg, write_png, write_tiff,
 };
 use rayon::prelude::*;
 
@@ -250,26 +249,14 @@ fn write<T>(
     scene: &Description,
     fill: impl FnOnce(&mut dyn BandSink) -> Result<T>,
 ) -> Result<T> {
-    let spaces = look.process.spaces();
-    let space = spaces.output_space.space();
-    let xy = |c: Chromaticity| [c.x as f32, c.y as f32];
-    let [red, green, blue] = space.primaries.map(xy);
-    let primaries = Chromaticities { red, green, blue, white: xy(space.white) };
+    let tag = colour_tag(look.process.spaces());
     let look = look.text_in(order.output.parent().unwrap_or(Path::new("")));
     let software = format!("onelight {}", env!("CARGO_PKG_VERSION"));
     let mut texts = vec![("Software", software.as_str()), (LOOK_KEY, look.as_str())];
     texts.extend(order.digest.map(|digest| (DIGEST_KEY, digest)));
     let path = order.output;
-    let picture = Description { primaries: Some(primaries), ..scene.clone() };
-    let transfer = match spaces.output_coding {
-        TransferCurve::Srgb => OutputTransfer::Srgb,
-        TransferCurve::Gamma24 => OutputTransfer::Gamma24,
-        TransferCurve::Gamma26 => OutputTransfer::Gamma26,
-        TransferCurve::Pq => OutputTransfer::Pq,
-        TransferCurve::Hlg => OutputTransfer::Hlg,
-        TransferCurve::Linear => OutputTransfer::Linear,
-    };
-    let tag = Some(ColourTag { transfer, primaries });
+    let picture = Description { primaries: Some(tag.primaries), ..scene.clone() };
+    let tag = Some(tag);
     match target {
         Target::Exr => write_exr_bands(path, &picture, &texts, fill),
         Target::Png(bits, dither) => {

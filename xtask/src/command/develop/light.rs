@@ -147,7 +147,7 @@ fn to_input_space(
         };
         notes.push(format!("the file's own chromaticities give way to {by}"));
     }
-    let own = named.and_then(InputCoding::space).or_else(|| of_file.as_ref().map(scene_colours::space_of));
+    let own = named.and_then(InputCoding::space).or_else(|| of_file.as_ref().map(onelight::space_of));
     let is_xyz = of_file.is_some() && picture.tristimulus == Tristimulus::Xyz;
     let usual = if is_xyz { InputWhite::Absolute } else { InputWhite::Relative };
     match input.white.unwrap_or(usual) {
