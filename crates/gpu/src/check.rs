@@ -20,7 +20,7 @@ pub(crate) fn check_source(view: &TextureView) -> Result<(), Error> {
 }
 
 /// That `view`'s texture can be written by a pass for `format`, which needs `usage`.
-pub(crate) fn check_target(view: &TextureView, format: TextureFormat, usage: TextureUsages) -> Result<(), Error> {
+fn check_target(view: &TextureView, format: TextureFormat, usage: TextureUsages) -> Result<(), Error> {
     let texture = view.texture();
     // Views may add or take away the sRGB curve; whether this one does is for wgpu to say.
     if texture.format().remove_srgb_suffix() != format.remove_srgb_suffix() {
@@ -34,8 +34,15 @@ pub(crate) fn check_target(view: &TextureView, format: TextureFormat, usage: Tex
     }
 }
 
-/// That the two can take part in one pass.
-pub(crate) fn check_pair(source: &TextureView, target: &TextureView) -> Result<(), Error> {
+/// That a pass can read `source` and write `target`, as [`check_target`] takes it, and that the two go together.
+pub(crate) fn check_pair(
+    source: &TextureView,
+    target: &TextureView,
+    format: TextureFormat,
+    usage: TextureUsages,
+) -> Result<(), Error> {
+    check_source(source)?;
+    check_target(target, format, usage)?;
     let [from, to] = [source, target].map(|view| [view.texture().width(), view.texture().height()]);
     if source.texture() == target.texture() {
         return Err(ErrorKind::SameTexture.into());

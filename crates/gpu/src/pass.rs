@@ -4,7 +4,7 @@ use wgpu::{
 };
 
 use crate::bound::BoundLook;
-use crate::check::{check_pair, check_source, check_target, checked};
+use crate::check::{check_pair, check_source, checked};
 use crate::error::{Error, Refused};
 use crate::form::Form;
 use crate::pipeline::{DrawPipeline, TexturePipeline};
@@ -111,9 +111,7 @@ impl FilmPass {
         source: &TextureView,
         target: &TextureView,
     ) -> Result<(), Error> {
-        check_source(source)?;
-        check_target(target, self.target.format(), self.target_usage())?;
-        check_pair(source, target)?;
+        check_pair(source, target, self.target.format(), self.target_usage())?;
         let size = [target.texture().width(), target.texture().height()];
         match &self.compute {
             Some(compute) => {

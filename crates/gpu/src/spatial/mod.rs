@@ -11,7 +11,7 @@ use wgpu::{
 };
 
 use self::step::{Slot, Step, dispatch, group, layout};
-use crate::check::{MAX_SIDE, check_source, check_target, checked};
+use crate::check::{MAX_SIDE, check_pair, checked};
 use crate::error::{Error, ErrorKind, Refused};
 use crate::pass::FilmPass;
 use crate::pipeline::compute_pipeline;
@@ -134,9 +134,7 @@ impl SpatialPass {
         source: &TextureView,
         target: &TextureView,
     ) -> Result<(), Error> {
-        check_source(source)?;
-        check_target(target, self.target.format(), self.target_usage())?;
-        crate::check::check_pair(source, target)?;
+        check_pair(source, target, self.target.format(), self.target_usage())?;
         let to = [target.texture().width(), target.texture().height()];
         if to != self.size {
             return Err(ErrorKind::StageSize { found: to, expected: self.size }.into());

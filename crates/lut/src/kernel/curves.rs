@@ -19,8 +19,8 @@ pub(super) struct ChannelCurve {
     axis: CurveAxis,
 }
 
-/// The lengths that the pieces of a curve are padded to with zeros, which take no memory until they are touched. Each is compiled for
-/// itself. Taking a number modulo the first two costs nothing: a processor loads the lower 8 or 16 bits alone.
+/// The lengths that the pieces of a curve are padded to with zeros. Each is compiled for itself. Taking a number modulo the first two
+/// costs nothing: a processor loads the lower 8 or 16 bits alone.
 const LENGTHS: [usize; 3] = [1 << 8, 1 << 16, 1 << 20];
 
 /// Where the pieces of a channel's curve lie.
