@@ -188,7 +188,7 @@ class Run:
         theirs = [self.python, str(environment.HERE / "film_lut_peer.py"), str(file), str(BAKE_SIZE)]
         a, b = [], []
         for _ in range(self.fresh):
-            a.append(self.seconds(ours, out / "look.cube"))
+            a.append(self.seconds(ours, out / "look.scene-linear.resolve.cube"))
             b.append(self.seconds(theirs, file))
         self.add(FILE, FILM_LUT, len(self.cpus), "process", a, b, BAKE_SIZE**3)
 
