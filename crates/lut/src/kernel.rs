@@ -14,9 +14,9 @@ pub(crate) mod expose;
 mod log2_exp2;
 pub(crate) mod lookup;
 mod matrix;
+mod pair;
 pub(crate) mod steps;
 pub(crate) mod sum;
-mod wide;
 
 /// All levels that this machine can run.
 #[cfg(test)]

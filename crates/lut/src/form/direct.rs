@@ -175,7 +175,7 @@ impl DirectForm {
         }
         if let (Some(print), Some(steps)) = (&mut self.parts.print, &mut self.print) {
             print.exposure = print.exposure.scaled(factors)?;
-            steps.exposure = Exponentials::new(&print.exposure, self.parts.develop.curves.ends());
+            steps.exposure = Exponentials::new(&print.exposure, widened(self.parts.develop.curves.ends()));
         }
         Ok(self)
     }
@@ -294,6 +294,10 @@ mod tests {
             assert!((after / before / factor - 1.0).abs() < 1e-5, "{before} {after}");
         }
         assert_eq!(moved.with_print_exposed([0.5, 2.0, 1.0]).unwrap(), direct);
+        // Exponents beyond those of normal numbers only where grain takes dye off the ends of its curve.
+        let print = Some(DirectPrint { exposure: separate(8.0), curves: falling() });
+        let steep = DirectForm::new(DirectParts { print, ..parts() }).unwrap();
+        assert_eq!(steep.clone().with_print_exposed([1.0; 3]).unwrap(), steep);
         assert!(direct.clone().with_print_exposed([0.0, 1.0, 1.0]).is_err());
         assert!(direct.clone().with_expose(Expose::by([[f32::NAN; 3]; 3])).is_err());
         let expose = Expose::by(IDENTITY).brighter(0.7);

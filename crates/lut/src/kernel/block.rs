@@ -29,17 +29,11 @@ pub(crate) struct Scratch {
     pub(super) index: [Plane<u32>; 4],
     /// Weights of vertices, or numbers that a step works on beside the colours.
     pub(super) weight: [Plane; 4],
-    /// Exponentials of a sum.
-    pub(super) power: [Plane; TERMS_AT_ONCE],
 }
-
-/// How many exponentials of a sum are held at once.
-pub(super) const TERMS_AT_ONCE: usize = 16;
 
 impl Block {
     pub(crate) fn new() -> Self {
-        let scratch =
-            Scratch { index: [[0; BLOCK]; 4], weight: [[0.0; BLOCK]; 4], power: [[0.0; BLOCK]; TERMS_AT_ONCE] };
+        let scratch = Scratch { index: [[0; BLOCK]; 4], weight: [[0.0; BLOCK]; 4] };
         Self { rgb: [[0.0; BLOCK]; 3], alpha: [1.0; BLOCK], scratch }
     }
 }

@@ -1,23 +1,33 @@
 use fearless_simd::Level;
 use fearless_simd::prelude::*;
 
-use super::block::{
-    BLOCK, Block, Plane, Scratch, TERMS_AT_ONCE, load, load_rgb, map_channels, map_plane, store, store_rgb,
-};
+use super::block::{Block, MOST_LANES, Plane, load_rgb, map_plane, store_rgb, vector_starts};
 use super::dispatch::dispatch;
 use super::log2_exp2::{exp2s, exp2s_within, log2s};
 use crate::exponential_sum::{ExponentialSum, ExponentialTerm};
 use crate::scene_light::LOG_FLOOR;
 
-/// Vectors that are summed up together, so that a weight that is loaded serves both.
-const VECTORS_AT_ONCE: usize = 2;
-
 /// A sum of exponentials as the loops compute it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Exponentials {
-    /// Rates with their sign turned: what 2 is raised to.
-    terms: Vec<ExponentialTerm>,
+    terms: Vec<TermLanes>,
     range: ExponentRange,
+}
+
+/// A term with each number in all lanes of the widest vector: an instruction takes them from memory as they are, while a single
+/// number would first take a load and a register.
+#[derive(Clone, Debug, PartialEq)]
+#[repr(align(64))]
+struct TermLanes {
+    /// Rates with their sign turned: what 2 is raised to.
+    rate: [[f32; MOST_LANES]; 3],
+    weight: [[f32; MOST_LANES]; 3],
+}
+
+impl TermLanes {
+    fn new(&ExponentialTerm { rate, weight }: &ExponentialTerm) -> Self {
+        Self { rate: rate.map(|v| [-v; MOST_LANES]), weight: weight.map(|v| [v; MOST_LANES]) }
+    }
 }
 
 /// Where the exponents of a sum lie.
@@ -41,97 +51,46 @@ impl Exponentials {
             rate.into_iter().zip(ends).map(most).sum()
         };
         let is_normal = sum.terms().iter().all(|term| largest(term.rate) <= NORMAL_EXPONENT);
-        let terms = sum.terms().iter().map(|term| ExponentialTerm { rate: term.rate.map(|r| -r), ..*term }).collect();
+        let terms = sum.terms().iter().map(TermLanes::new).collect();
         Self { terms, range: if is_normal { ExponentRange::Normal } else { ExponentRange::Any } }
     }
 
     /// The sums at the block's colours, in place of them.
-    pub(crate) fn apply(&self, level: Level, Block { rgb, scratch, .. }: &mut Block, count: usize) {
-        let Scratch { weight: [sums @ .., _], power, .. } = scratch;
-        let mut chunks = self.terms.chunks(TERMS_AT_ONCE);
-        let last = chunks.next_back().unwrap_or_default();
-        let is_first = chunks.len() == 0;
-        if !is_first {
-            *sums = [[0.0; BLOCK]; 3];
-        }
-        for terms in chunks {
-            dispatch!(level, simd => powers(simd, terms, self.range, rgb, power, count));
-            dispatch!(level, simd => add(simd, terms, power, sums, count));
-        }
-        dispatch!(level, simd => powers(simd, last, self.range, rgb, power, count));
-        *rgb = if is_first { [[0.0; BLOCK]; 3] } else { *sums };
-        dispatch!(level, simd => add(simd, last, power, rgb, count));
+    pub(crate) fn apply(&self, level: Level, Block { rgb, .. }: &mut Block, count: usize) {
+        dispatch!(level, simd => match self.range {
+            ExponentRange::Normal => sums(simd, &self.terms, rgb, count,
+                #[inline(always)]
+                |x: _| exp2s_within(simd, x)),
+            ExponentRange::Any => sums(simd, &self.terms, rgb, count,
+                #[inline(always)]
+                |x: _| exp2s(simd, x)),
+        });
     }
 }
 
-/// The exponential of each term, of each colour.
+/// One vector of pixels after the other, its colours and its sums in registers all the while.
 #[inline(always)]
-fn powers<S: Simd>(
-    simd: S,
-    terms: &[ExponentialTerm],
-    range: ExponentRange,
-    rgb: &[Plane; 3],
-    powers: &mut [Plane; TERMS_AT_ONCE],
-    count: usize,
-) {
-    for (ExponentialTerm { rate, .. }, power) in terms.iter().zip(powers) {
-        // Once for all vectors: the compiler cannot know that the loops do not store to where the terms lie.
-        let rate = map_channels(
-            *rate,
-            #[inline(always)]
-            |v| S::f32s::splat(simd, v),
-        );
-        // Two vectors a turn, as in `map_plane`.
-        let len = S::f32s::LEN;
-        let pairs = (0..count.min(BLOCK)).step_by(2 * len);
-        match range {
-            ExponentRange::Normal => {
-                for i in pairs {
-                    store::<S>(exp2s_within(simd, exponents(simd, rate, rgb, i)), power, i);
-                    store::<S>(exp2s_within(simd, exponents(simd, rate, rgb, i + len)), power, i + len);
-                }
-            }
-            ExponentRange::Any => {
-                for i in pairs {
-                    store::<S>(exp2s(simd, exponents(simd, rate, rgb, i)), power, i);
-                    store::<S>(exp2s(simd, exponents(simd, rate, rgb, i + len)), power, i + len);
-                }
-            }
+fn sums<S: Simd>(simd: S, terms: &[TermLanes], rgb: &mut [Plane; 3], count: usize, exp2: impl Fn(S::f32s) -> S::f32s) {
+    for i in vector_starts::<S>(count) {
+        let [x, y, z] = load_rgb(simd, rgb, i);
+        let zero = S::f32s::splat(simd, 0.0);
+        let [mut red, mut green, mut blue] = [zero; 3];
+        for TermLanes { rate, weight } in terms {
+            let exponent =
+                z.mul_add(lanes(simd, &rate[2]), y.mul_add(lanes(simd, &rate[1]), x * lanes(simd, &rate[0])));
+            let power = exp2(exponent);
+            red = power.mul_add(lanes(simd, &weight[0]), red);
+            green = power.mul_add(lanes(simd, &weight[1]), green);
+            blue = power.mul_add(lanes(simd, &weight[2]), blue);
         }
+        store_rgb::<S>([red, green, blue], rgb, i);
     }
 }
 
+/// As many of them as a vector has lanes.
 #[inline(always)]
-fn exponents<S: Simd>(simd: S, rate: [S::f32s; 3], rgb: &[Plane; 3], i: usize) -> S::f32s {
-    let [x, y, z] = load_rgb(simd, rgb, i);
-    z.mul_add(rate[2], y.mul_add(rate[1], x * rate[0]))
-}
-
-/// Adds the weighted exponentials to the sums.
-#[inline(always)]
-fn add<S: Simd>(
-    simd: S,
-    terms: &[ExponentialTerm],
-    powers: &[Plane; TERMS_AT_ONCE],
-    sums: &mut [Plane; 3],
-    count: usize,
-) {
-    let len = S::f32s::LEN;
-    for i in (0..count.min(BLOCK)).step_by(VECTORS_AT_ONCE * len) {
-        let [mut red, mut green, mut blue] = load_rgb(simd, sums, i);
-        let [mut red_far, mut green_far, mut blue_far] = load_rgb(simd, sums, i + len);
-        for (ExponentialTerm { weight, .. }, power) in terms.iter().zip(powers) {
-            let (near, far) = (load(simd, power, i), load(simd, power, i + len));
-            red = near.mul_add(weight[0], red);
-            green = near.mul_add(weight[1], green);
-            blue = near.mul_add(weight[2], blue);
-            red_far = far.mul_add(weight[0], red_far);
-            green_far = far.mul_add(weight[1], green_far);
-            blue_far = far.mul_add(weight[2], blue_far);
-        }
-        store_rgb::<S>([red, green, blue], sums, i);
-        store_rgb::<S>([red_far, green_far, blue_far], sums, i + len);
-    }
+fn lanes<S: Simd>(simd: S, numbers: &[f32; MOST_LANES]) -> S::f32s {
+    S::f32s::from_slice(simd, &numbers[..S::f32s::LEN])
 }
 
 /// The log2 of the block's colours, of at least [`LOG_FLOOR`].
