@@ -10,7 +10,7 @@ use clap::Args;
 use onelight::spectra::SceneWhite;
 use onelight::{
     Aim, Approach, DyeModel, FilmEffects, Films, FormatVersion, Look, Process, ProcessKeys, SheetKeys, Stock,
-    StockKind, StockRef, TransferCurve, WorkingSpace, stock,
+    StockKind, StockRef, TransferCurve, WorkingSpace, stock, stock_named,
 };
 
 use crate::effects::EffectSwitches;
@@ -28,13 +28,13 @@ pub(crate) struct LookArguments {
     /// Description of a look (look.toml) to begin with; the options below change it
     #[arg(long, value_name = "FILE")]
     look: Option<PathBuf>,
-    /// Film in the camera, such as kodak-5207 (`cargo xtask stocks` lists all), or a folder with a data sheet of your own in
-    /// the form of stocks/kodak-5207, or none to print a scanned negative (--input-coding cineon) [default: kodak-5207]; bake --for
-    /// ocio takes several between commas
-    #[arg(long, value_name = "ID|DIR|none")]
+    /// Film in the camera, such as kodak-5207 or a part of a name that fits one film, such as velvia (`cargo xtask stocks` lists all), or a
+    /// folder with a data sheet of your own in the form of stocks/kodak-5207, or none to print a scanned negative (--input-coding cineon)
+    /// [default: kodak-5207]; bake --for ocio takes several between commas
+    #[arg(long, value_name = "NAME|DIR|none")]
     camera: Option<String>,
     /// Film that a negative is printed on, or a folder with its data sheet, or none [default: kodak-2383 for negatives]
-    #[arg(long, value_name = "ID|DIR|none")]
+    #[arg(long, value_name = "NAME|DIR|none")]
     print: Option<String>,
     /// What an 18 % grey card becomes [default: neutral]
     #[arg(long, value_parser = words::<Aim>())]
@@ -159,12 +159,19 @@ enum Named {
 }
 
 impl Named {
-    fn of_word(word: &str) -> Result<Self> {
+    /// As an option has it; a part of a name goes to what `is_wanted` there.
+    fn of_word(option: &str, word: &str, is_wanted: impl Fn(&Stock) -> bool) -> Result<Self> {
         if own_stock::is_folder(word) {
-            own_stock::read(Path::new(word)).map(|own| Self::Own(Box::new(own)))
-        } else {
-            Ok(Self::BuiltIn(word.to_owned()))
+            return own_stock::read(Path::new(word)).map(|own| Self::Own(Box::new(own)));
         }
+        if word == "none" {
+            return Ok(Self::BuiltIn(word.to_owned()));
+        }
+        let found = stock_named(word, is_wanted).with_context(|| option.to_owned())?;
+        if !word.eq_ignore_ascii_case(found.id()) {
+            eprintln!("note: {option} {word}: taken for {}", found.id());
+        }
+        Ok(Self::BuiltIn(found.id().to_owned()))
     }
 
     /// As a description in `file` has it.
@@ -259,14 +266,18 @@ impl LookArguments {
     fn films(&self, camera: Option<&str>, keys: &ProcessKeys) -> Result<(Named, Option<Named>)> {
         let file = self.look.as_deref().unwrap_or(Path::new(""));
         let print = match (&self.print, &keys.print) {
-            (Some(word), _) => ProcessKeys::parse_print(word)?.map(|word| Named::of_word(&word)).transpose()?,
+            (Some(word), _) => {
+                let is_wanted = |stock: &Stock| !stock.kind().is_camera_film();
+                let word = ProcessKeys::parse_print(word)?;
+                word.map(|word| Named::of_word("--print", &word, is_wanted)).transpose()?
+            }
             (None, Some(id)) => Some(Named::of_keys(file, "print", id, keys.print_sheet())?),
             (None, None) => None,
         };
         let Some(word) = camera else {
             return Ok((Named::of_keys(file, "camera", &keys.camera, keys.camera_sheet())?, print));
         };
-        let camera = Named::of_word(word)?;
+        let camera = Named::of_word("--camera", word, |stock| stock.kind().is_camera_film())?;
         if self.print.is_some() {
             return Ok((camera, print));
         }

@@ -2,6 +2,9 @@ use std::fmt;
 
 use onelight_film::StockKind;
 
+/// Most names that a message lists.
+const NAMES_LISTED: usize = 8;
+
 /// What went wrong: one sentence that says what, where, what was found and what was expected.
 ///
 /// ```
@@ -40,14 +43,19 @@ pub(crate) enum ErrorKind {
         found: String,
         nearest: Option<&'static str>,
     },
+    SeveralStocks {
+        found: String,
+        fits: Vec<String>,
+    },
     Contradiction(String),
 }
 
 impl Error {
-    /// Whether no stock has the id that was asked for; the message names the nearest if there is a near one.
+    /// Whether no stock has the id that was asked for; the message names the nearest if there is a near one, and all that a part of a
+    /// name fits.
     #[must_use]
     pub fn is_unknown_stock(&self) -> bool {
-        matches!(self.0, ErrorKind::UnknownStock { .. })
+        matches!(self.0, ErrorKind::UnknownStock { .. } | ErrorKind::SeveralStocks { .. })
     }
 
     /// Whether the film cannot be brought to its aim.
@@ -159,8 +167,19 @@ impl fmt::Display for Error {
             ErrorKind::UnknownStock { found, nearest: None } => {
                 write!(f, "no stock is called {found:?}, expected a maker and a number, such as kodak-5207")
             }
+            ErrorKind::SeveralStocks { found, fits } => {
+                write!(f, "{found:?} fits {}, expected more of one of these names", listed(fits))
+            }
             ErrorKind::Contradiction(sentence) | ErrorKind::Unreachable(sentence) => f.write_str(sentence),
         }
+    }
+}
+
+/// Names between commas, the last after an "and"; of many no more than a message should hold.
+fn listed(names: &[String]) -> String {
+    match names {
+        [names @ .., last] if names.len() < NAMES_LISTED => format!("{} and {last}", names.join(", ")),
+        _ => format!("{} and {} more", names[..NAMES_LISTED].join(", "), names.len() - NAMES_LISTED),
     }
 }
 

@@ -165,7 +165,7 @@ pub use process::{
 pub use process_keys::{FormatVersion, ProcessKeys, SheetKeys};
 pub use reference::{PrintStage, Reference, Stages};
 pub use scene::SCENE_MAX;
-pub use stocks::{stock, stock_ids};
+pub use stocks::{stock, stock_ids, stock_named};
 pub use structured::{Entries, StructuredSettings, TableCoding};
 pub use uncertainty::Uncertainty;
 pub use word::{Word, WorkingSpace};

@@ -5,7 +5,7 @@ const NAME_CHARACTERS: usize = 64;
 /// Names less alike than this have nothing to do with each other: unrelated words reach 0.6 in Jaro and Winkler's measure.
 const ALIKE: f64 = 0.72;
 /// Fewer characters than this are found inside of many names.
-const PART_CHARACTERS: usize = 3;
+pub(crate) const PART_CHARACTERS: usize = 3;
 /// Most characters of a sentence that another reader wrote: it may repeat a whole value. Ours are shorter.
 const SENTENCE_CHARACTERS: usize = 500;
 

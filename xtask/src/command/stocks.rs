@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use clap::Args;
 use onelight::film::{ExposureAxis, Origin, PerLayer};
-use onelight::{Image, Stock, StockKind, looks_with, stock, stock_ids};
+use onelight::{Image, Stock, StockKind, looks_with, stock, stock_ids, stock_named};
 use serde_json::{Value, json};
 
 use crate::atomic_file::write_atomically;
@@ -17,8 +17,8 @@ use crate::{Report, folders};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// One stock: its facts, and a plot of its curves
-    #[arg(value_name = "ID", conflicts_with = "check")]
+    /// One stock, by its id or a part of its name: its facts, and a plot of its curves
+    #[arg(value_name = "NAME", conflicts_with = "check")]
     id: Option<String>,
     /// Read every stock and compile a process with it; the first fault is an error
     #[arg(long)]
@@ -182,7 +182,8 @@ fn shown(arguments: &Arguments) -> Result<(String, Value)> {
 }
 
 fn one(id: &str, out: Option<&Path>) -> Result<(String, Value)> {
-    let stock = stock(id)?;
+    let stock = stock_named(id, |_| true)?;
+    let id = stock.id();
     let folder = out.map_or_else(|| folders::output("stocks"), folders::make)?;
     let file = folder.join(format!("{id}.svg"));
     let svg = onelight_charts::stock_plot(&stock)?;

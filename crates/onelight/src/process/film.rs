@@ -232,6 +232,12 @@ impl Printing {
     }
 
     fn check(&self) -> Result<(), Error> {
+        let usual = Printer::default().beam_density.to_array();
+        if self.calibration == Calibration::Exact && self.beam_density != usual {
+            let sentence = "calibration exact finds the lights whatever density is in the beams: beam_density changes nothing, \
+                            expected it left out, or calibration with a number of iterations";
+            return Err(ErrorKind::Contradiction(sentence.to_owned()).into());
+        }
         let separations = [Wratten::No70, Wratten::No99, Wratten::No98];
         if self.light != PrinterLight::Separations && !separations.iter().all(|filter| self.filters.contains(*filter)) {
             let sentence = format!(

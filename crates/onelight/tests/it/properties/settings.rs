@@ -94,6 +94,11 @@ pub(crate) fn process() -> impl Strategy<Value = FilmProcess> {
             let silver = stock(print.film.id()).unwrap().image() == Image::Silver;
             let red_tail = if silver { Tail::default() } else { red_tail };
             let curves = if silver || film.dyes == DyeModel::Literal { PrintCurves::Neutral } else { curves };
+            // An exact calibration undoes them.
+            let beam_density = match calibration {
+                Calibration::Exact => Printing::default().beam_density,
+                Calibration::Iterations(_) => beam_density,
+            };
             let filters = if light == PrinterLight::Separations { filters } else { Filters::default() };
             let print =
                 Printing { curves, light, filters, infrared, glass, red_tail, beam_density, calibration, ..print };
