@@ -34,6 +34,7 @@ impl Word for InputCoding {
         (Self::Scene(SceneCurve::LogC4), "logc4", "ARRI LogC4 (ARRI Wide Gamut 4)"),
         (Self::Scene(SceneCurve::LogC3), "logc3", "ARRI LogC3, EI 800 (ARRI Wide Gamut 3)"),
         (Self::Scene(SceneCurve::SLog3), "slog3", "Sony S-Log3 (S-Gamut3.Cine)"),
+        (Self::Scene(SceneCurve::SLog3SGamut3), "slog3-sgamut3", "Sony S-Log3 (S-Gamut3)"),
         (Self::Scene(SceneCurve::DaVinciIntermediate), "intermediate", "DaVinci Intermediate (DaVinci Wide Gamut)"),
         (Self::Scene(SceneCurve::VLog), "vlog", "Panasonic V-Log (V-Gamut)"),
         (Self::Scene(SceneCurve::CLog2), "clog2", "Canon Log 2 (Cinema Gamut)"),

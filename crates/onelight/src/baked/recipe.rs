@@ -49,6 +49,8 @@ pub enum ShaperChoice {
     Logc4,
     /// It takes Sony S-Log3 (S-Gamut3.Cine).
     Slog3,
+    /// It takes Sony S-Log3 (S-Gamut3).
+    Slog3Sgamut3,
     /// It takes DaVinci Intermediate (DaVinci Wide Gamut).
     Intermediate,
     /// It takes ARRI LogC3 at exposure index 800 (ARRI Wide Gamut 3).
@@ -117,6 +119,7 @@ words! {
         ShaperChoice::Acescct = "acescct" "The table takes ACEScct (AP1 primaries) instead of scene light",
         ShaperChoice::Logc4 = "logc4" "It takes ARRI LogC4 (ARRI Wide Gamut 4)",
         ShaperChoice::Slog3 = "slog3" "It takes Sony S-Log3 (S-Gamut3.Cine)",
+        ShaperChoice::Slog3Sgamut3 = "slog3-sgamut3" "It takes Sony S-Log3 (S-Gamut3)",
         ShaperChoice::Intermediate = "intermediate" "It takes DaVinci Intermediate (DaVinci Wide Gamut)",
         ShaperChoice::Logc3 = "logc3" "It takes ARRI LogC3, EI 800 (ARRI Wide Gamut 3)",
         ShaperChoice::Vlog = "vlog" "It takes Panasonic V-Log (V-Gamut)",
@@ -153,6 +156,7 @@ impl ShaperChoice {
             Self::Acescct => SceneCurve::AcesCct,
             Self::Logc4 => SceneCurve::LogC4,
             Self::Slog3 => SceneCurve::SLog3,
+            Self::Slog3Sgamut3 => SceneCurve::SLog3SGamut3,
             Self::Intermediate => SceneCurve::DaVinciIntermediate,
             Self::Logc3 => SceneCurve::LogC3,
             Self::Vlog => SceneCurve::VLog,

@@ -27,6 +27,8 @@ pub enum SceneCurve {
     LogC4,
     /// Sony S-Log3 (\[SonySLog3\]), full range, code value / 1023: 0 is coded 95, 0.18 is 420; the toe goes on below 0.
     SLog3,
+    /// The same curve with the wider primaries S-Gamut3, the other pair of Sony's cameras (\[SonySLog3\]).
+    SLog3SGamut3,
     /// DaVinci Intermediate (\[DaVinciIntermediate\]): codes 0..1 are 0..100; the toe goes on below 0.
     DaVinciIntermediate,
     /// ARRI LogC3 at exposure index 800 (\[ArriLogC3\]): 0.18 is coded 0.391; the toe goes on below 0.
@@ -65,11 +67,12 @@ pub enum SceneCurve {
 
 impl SceneCurve {
     /// All curves: those of cameras and grading programs first.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::AcesCct,
         Self::LogC4,
         Self::LogC3,
         Self::SLog3,
+        Self::SLog3SGamut3,
         Self::DaVinciIntermediate,
         Self::VLog,
         Self::CLog2,
@@ -92,7 +95,7 @@ impl SceneCurve {
         match self {
             Self::AcesCct => "ACEScct",
             Self::LogC4 => "ARRI LogC4",
-            Self::SLog3 => "S-Log3",
+            Self::SLog3 | Self::SLog3SGamut3 => "S-Log3",
             Self::DaVinciIntermediate => "DaVinci Intermediate",
             Self::LogC3 => "ARRI LogC3 (EI 800)",
             Self::VLog => "V-Log",
@@ -153,7 +156,7 @@ impl SceneCurve {
         match self {
             Self::AcesCct => Some(CameraLog::ACES_CCT),
             Self::LogC4 => Some(CameraLog::LOG_C4),
-            Self::SLog3 => Some(CameraLog::S_LOG3),
+            Self::SLog3 | Self::SLog3SGamut3 => Some(CameraLog::S_LOG3),
             Self::DaVinciIntermediate => Some(CameraLog::DAVINCI_INTERMEDIATE),
             Self::LogC3 => Some(CameraLog::LOG_C3),
             Self::VLog => Some(CameraLog::V_LOG),
@@ -172,14 +175,14 @@ impl SceneCurve {
         }
     }
 
-    /// The primaries that belong to the curve. S-Log3 has S-Gamut3.Cine's and also comes with [`RgbSpace::S_GAMUT3`]; F-Log, F-Log2, N-Log, Apple
-    /// Log, HLG and PQ have BT.2020's.
+    /// The primaries that belong to the curve. F-Log, F-Log2, N-Log, Apple Log, HLG and PQ have BT.2020's.
     #[must_use]
     pub const fn space(self) -> RgbSpace {
         match self {
             Self::AcesCct => RgbSpace::ACESCG,
             Self::LogC4 => RgbSpace::ARRI_WIDE_GAMUT_4,
             Self::SLog3 => RgbSpace::S_GAMUT3_CINE,
+            Self::SLog3SGamut3 => RgbSpace::S_GAMUT3,
             Self::DaVinciIntermediate => RgbSpace::DAVINCI_WIDE_GAMUT,
             Self::LogC3 => RgbSpace::ARRI_WIDE_GAMUT_3,
             Self::VLog => RgbSpace::V_GAMUT,
@@ -199,6 +202,7 @@ impl SceneCurve {
             Self::LogC4 => "ARRI Wide Gamut 4",
             Self::LogC3 => "ARRI Wide Gamut 3",
             Self::SLog3 => "S-Gamut3.Cine",
+            Self::SLog3SGamut3 => "S-Gamut3",
             Self::DaVinciIntermediate => "DaVinci Wide Gamut",
             Self::VLog => "V-Gamut",
             Self::CLog2 | Self::CLog3 => "Cinema Gamut",
@@ -222,8 +226,9 @@ impl SceneCurve {
 /// What the numbers of a coded picture mean: primaries, white and the curve on each channel.
 ///
 /// ```
-/// use onelight_spectra::{CodedSpace, RgbSpace, SceneCurve};
-/// let camera = CodedSpace { space: RgbSpace::S_GAMUT3, ..SceneCurve::SLog3.coded_space() };
+/// use onelight_spectra::{RgbSpace, SceneCurve};
+/// let camera = SceneCurve::SLog3SGamut3.coded_space();
+/// assert_eq!(camera.space, RgbSpace::S_GAMUT3);
 /// let coded = camera.encode([0.18, 0.0, 0.9]).map(|v| (v * 1023.0).round());
 /// assert_eq!(coded, [420.0, 95.0, 598.0]);
 /// ```
