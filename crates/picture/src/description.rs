@@ -27,6 +27,8 @@ pub struct Description {
     pub tristimulus: Tristimulus,
     /// The colour space of the pixels where the file names it.
     pub primaries: Option<Chromaticities>,
+    /// Luminance of (1, 1, 1) in cd/m2, where the file says it: OpenEXR's `whiteLuminance`. Other formats have no place for it.
+    pub white_luminance: Option<f32>,
     /// How the values become light where the file says it. Values are given as they are. Writers do not look at it.
     pub transfer: Option<Transfer>,
     /// What in the file says so, as a noun for the user, such as "the ICC profile `Display P3`".
@@ -51,6 +53,7 @@ impl Description {
             windows,
             tristimulus: Tristimulus::Rgb,
             primaries: None,
+            white_luminance: None,
             transfer: None,
             colours_said_by: None,
             source,

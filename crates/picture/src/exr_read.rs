@@ -61,12 +61,19 @@ pub(crate) fn open<'a>(
     if windows.pixel_aspect != header.shared_attributes.pixel_aspect {
         notes.push("took the pixels for square, as the file's pixel aspect ratio cannot be".to_owned());
     }
+    let white_luminance = header.own_attributes.white_luminance.filter(|found| found.is_finite() && *found > 0.0);
+    if let Some(found) = white_luminance {
+        notes.push(format!(
+            "the file says that (1, 1, 1) is {found} cd/m2, which changes nothing: exposure is relative"
+        ));
+    }
     let mut description = Description {
         width: header.layer_size.0,
         height: header.layer_size.1,
         channels: if layout.alpha.is_some() { Channels::Rgba } else { Channels::Rgb },
         stored_alpha: StoredAlpha::Premultiplied,
         windows,
+        white_luminance,
         notes,
         ..Description::new(1, 1, Channels::Rgb, Source::Exr)
     };

@@ -30,8 +30,8 @@ use crate::{
 /// Rows of a block of ZIP.
 const BLOCK_ROWS: usize = 16;
 
-/// Writes a picture as a linear OpenEXR file of `f32` RGB or premultiplied RGBA, ZIP-compressed, with its windows and
-/// primaries, from the bands that `fill` hands over; what `fill` returns. Memory is that of a band.
+/// Writes a picture as a linear OpenEXR file of `f32` RGB or premultiplied RGBA, ZIP-compressed, with its windows,
+/// primaries and white luminance, from the bands that `fill` hands over; what `fill` returns. Memory is that of a band.
 ///
 /// Nothing is clipped. `texts` become string attributes, of a key and a value each; `Software` is the standard one of that
 /// name. The crate below keeps others in unordered maps, one of the part and one of the picture: two have a fixed order, so
@@ -242,6 +242,7 @@ fn header(picture: &Description, texts: &[(&str, &str)]) -> Result<Header, Error
     let channels = names.iter().map(|name| ChannelDescription::named(*name, SampleType::F32)).collect();
     let [x, y] = picture.windows.data_origin;
     let mut own = LayerAttributes::default().with_position(Vec2(x, y));
+    own.white_luminance = picture.white_luminance;
     let mut shared = shared_attributes(picture);
     add_texts(texts, &mut own, &mut shared)?;
     for ExrAttribute { name, kind, bytes } in &picture.metadata.exr {

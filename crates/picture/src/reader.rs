@@ -177,7 +177,20 @@ fn open_input<'a>(
         [b'#', b'?', b'R', b'A', b'D', b'I', b'A', b'N', b'C', b'E', ..] | [b'#', b'?', b'R', b'G', b'B', b'E', ..] => {
             hdr_read::open(reader, length, limits)
         }
-        other => Err(Kind::Format { found: kind_of_file(other), expected: readable_formats() }.into()),
+        other => {
+            let found = kind_of_file(other);
+            let expected = match found {
+                raw if raw.contains("camera raw") => {
+                    "what a raw converter makes of it (darktable or RawTherapee, exported as linear Rec.2020 float TIFF or as OpenEXR)"
+                        .to_owned()
+                }
+                "a DPX picture" => {
+                    "its codes as a TIFF or PNG of 16 bits (`oiiotool scan.dpx -d uint16 -o scan.tif`)".to_owned()
+                }
+                _ => readable_formats(),
+            };
+            Err(Kind::Format { found, expected }.into())
+        }
     }
 }
 

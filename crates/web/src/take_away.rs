@@ -134,7 +134,8 @@ fn over_black(band: &mut onelight_picture::Band) {
 
 fn written(scene: &Description, process: &Process, opaque: bool) -> Description {
     let channels = if opaque { Channels::Rgb } else { scene.channels };
-    Description { primaries: Some(colour_tag(process.spaces()).primaries), channels, ..scene.clone() }
+    let primaries = Some(colour_tag(process.spaces()).primaries);
+    Description { primaries, white_luminance: None, channels, ..scene.clone() }
 }
 
 /// Files of a look for one program, with what is to be known of them.

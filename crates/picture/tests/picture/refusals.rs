@@ -161,7 +161,8 @@ fn files_that_are_no_pictures_are_named_in_one_sentence() {
     for (name, contents, expected) in [
         ("empty.exr", &b""[..], "is empty"),
         ("a.jxl", b"\xff\x0a and so on", "a JPEG XL picture"),
-        ("a.raf", b"FUJIFILMCCD-RAW 0201", "a Fujifilm camera raw file (RAF)"),
+        ("a.raf", b"FUJIFILMCCD-RAW 0201", "(RAF) by its first bytes, expected what a raw converter makes of it"),
+        ("a.dpx", b"SDPX", "a DPX picture by its first bytes, expected its codes as a TIFF or PNG of 16 bits"),
         ("a.cr3", b"\0\0\0\x18ftypcrx \0", "a Canon camera raw file (CR3)"),
         ("a.dds", b"DDS |", "a DDS texture"),
         ("a.hdr", b"#?RADIANCE\n", "no end"),

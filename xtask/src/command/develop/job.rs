@@ -37,6 +37,8 @@ pub(super) struct Settings {
     /// Where the picture lies on the film.
     pub(super) on_film: OnFilm,
     pub(super) target: Target,
+    /// Luminance of (1, 1, 1) in cd/m2, where an EXR of linear light is for a display of absolute light.
+    pub(super) white_luminance: Option<f32>,
     pub(super) metadata: KeptMetadata,
     pub(super) limits: Limits,
 }
@@ -177,7 +179,11 @@ pub(super) fn develop_picture(
             }
         }
     };
-    let mut developed = Description { channels: light.coverage.channels(&description), ..description.clone() };
+    let mut developed = Description {
+        channels: light.coverage.channels(&description),
+        white_luminance: settings.white_luminance,
+        ..description.clone()
+    };
     if settings.metadata == KeptMetadata::None {
         developed.metadata = Metadata::default();
     }

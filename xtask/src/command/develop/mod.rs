@@ -125,6 +125,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     }
     let mut look = arguments.look.chosen()?;
     let spaces = look.process.spaces_mut();
+    let white_luminance = spaces.output_coding.is_hdr().then_some(spaces.white_luminance as f32);
     if target.is_linear() && spaces.output_coding != TransferCurve::Linear {
         let what = if target == Target::Exr { "an EXR" } else { "a TIFF of floats" };
         notes.push(format!("{what} holds linear light: not coded by {}", spaces.output_coding.word()));
@@ -163,6 +164,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         input,
         on_film: arguments.on_film,
         target,
+        white_luminance,
         metadata: arguments.out.metadata.unwrap_or_default(),
         limits: Limits {
             max_pixels: arguments.picture.max_pixels,
@@ -193,6 +195,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     if let Some(map) = &arguments.uncertainty {
         settings.film = Film::uncertainty(&settings.look)?;
         (settings.exposure, settings.target) = (Exposure::Stops(ev), Target::Exr);
+        // Differences are no light.
+        settings.white_luminance = None;
         let progress = bar("uncertainty", 0);
         let order = Order { input: &arguments.input, output: map, number: 0, digest: None };
         let mapped = clock.time("uncertainty", || develop_picture(&settings, &order, &progress, |_, _| {}));

@@ -25,7 +25,8 @@ impl Recipe {
     /// # Errors
     /// Those of compiling the look.
     pub(super) fn new(settings: &Settings) -> Result<Self> {
-        let Settings { look, film, exposure, scene, input, on_film, target, metadata, limits: _ } = settings;
+        let Settings { look, film, exposure, scene, input, on_film, target, white_luminance, metadata, limits: _ } =
+            settings;
         let mut text = String::new();
         let mut line = |key: &str, value: &dyn std::fmt::Display| {
             let _ = writeln!(text, "{key}: {value}");
@@ -40,6 +41,7 @@ impl Recipe {
         line("effects", &format_args!("{:?}", film.effects()));
         line("on film", &format_args!("{on_film:?}"));
         line("target", &format_args!("{target:?}"));
+        line("white luminance", &format_args!("{white_luminance:?}"));
         line("metadata", &format_args!("{metadata:?}"));
         // Data sheets of one's own count by their digests, wherever they are.
         line("look", &look.text_anywhere());
