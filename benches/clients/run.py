@@ -6,10 +6,11 @@
 FOLDER is what `bake --for all --output-coding srgb --out FOLDER` wrote, XTASK the built runner, which develops the same colours exactly. Prints one
 line of a table for each program and file: largest and mean CIEDE2000 over 16384 colours, and the program's version. A
 program that is not installed is left out, unless --require names it: then it must be there and near the film. Needs ffmpeg, which makes and reads the pictures,
-and numpy; PyOpenColorIO, oiiotool, gmic, ImageMagick, RawTherapee, bpy and Node with three where they are there.
+and numpy; PyOpenColorIO, oiiotool, gmic, ImageMagick, RawTherapee, darktable, bpy and Node with three where they are there.
 """
 
 import argparse
+import base64
 import json
 import os
 import pathlib
@@ -18,6 +19,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import zlib
 
 import numpy
 
@@ -151,6 +153,28 @@ def rawtherapee_hald(work, folder):
     return "RawTherapee " + re.search(r"\d+\.\d+", said)[0]
 
 
+DARKTABLE = """<?xml version="1.0" encoding="UTF-8"?>
+<x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#">
+<rdf:Description rdf:about="" xmlns:darktable="http://darktable.sf.net/" darktable:xmp_version="5" darktable:history_end="1"
+darktable:iop_order_version="2"><darktable:history><rdf:Seq><rdf:li darktable:num="0" darktable:operation="lut3d" darktable:enabled="1"
+darktable:modversion="3" darktable:params="{}" darktable:multi_priority="0"/></rdf:Seq></darktable:history></rdf:Description>
+</rdf:RDF></x:xmpmeta>
+"""
+
+
+def darktable_cube(work, folder):
+    # Version 3 of the module's settings: the file's path below the LUT folder, application colour space (0: sRGB), interpolation
+    # (0: tetrahedral), and what only compressed LUTs have.
+    settings = b"look.srgb.cube".ljust(512, b"\0") + bytes(4 + 4 + 4 + 2048 * 2 * 3 + 128)
+    packed = zlib.compress(settings, 9)
+    text = f"gz{min(len(settings) // len(packed) + 1, 99):02}" + base64.b64encode(packed).decode()
+    (work / "look.xmp").write_text(DARKTABLE.format(text), encoding="utf-8")
+    conf = [f"plugins/darkroom/lut3d/def_path={folder}", "plugins/imageio/format/png/bpp=16"]
+    core = ["--core", "--configdir", work / "darktable", "--library", ":memory:", *(word for line in conf for word in ("--conf", line))]
+    run("darktable-cli", work / "in.png", work / "look.xmp", work / "out.png", *core)
+    return "darktable " + re.search(r"\d+\.\d+\.\d+", run("darktable-cli", "--version").decode(errors="replace"))[0]
+
+
 BLENDER = """
 import os, sys
 os.environ["OCIO"] = sys.argv[1]
@@ -170,6 +194,23 @@ def blender_view(work, folder):
     return said.decode().strip().splitlines()[-1]
 
 
+KTX2 = """
+import fs from "node:fs";
+import { KTX2Loader } from "three/examples/jsm/loaders/KTX2Loader.js";
+import { REVISION, HalfFloatType } from "three";
+const loader = new KTX2Loader();
+// Only compressed textures ask what the graphics card supports.
+loader.workerConfig = {};
+const bytes = fs.readFileSync(process.argv[2]);
+const buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength);
+loader.parse(buffer, (texture) => {
+  if (texture.type !== HalfFloatType) throw new Error("no half floats");
+  const { width, height, depth, data } = texture.image;
+  fs.writeFileSync(process.argv[3], Buffer.from(data.buffer, data.byteOffset, data.byteLength));
+  console.log(JSON.stringify({ size: [width, height, depth], revision: REVISION }));
+}, (error) => { throw error; });
+"""
+
 THREE = """
 import fs from "node:fs";
 import { LUTCubeLoader } from "three/examples/jsm/loaders/LUTCubeLoader.js";
@@ -181,17 +222,20 @@ console.log(JSON.stringify({ size, revision: REVISION }));
 """
 
 
-def three_cube(work, folder):
-    """The texture that three.js loads, filtered as its shader's hardware does: trilinear between texel centres."""
+def by_three(program, file, work):
+    """What a program for Node that imports three.js says of a file."""
     modules = pathlib.Path(__file__).resolve().parents[2] / "target/three/node_modules"
     if not modules.is_dir():
         raise FileNotFoundError("target/three: npm install --prefix target/three three")
     script = modules.parent / "load.mjs"
-    script.write_text(THREE, encoding="utf-8")
-    said = json.loads(run("node", script, folder / "look.srgb.cube", work / "table.raw"))
-    size = said["size"]
-    table = numpy.fromfile(work / "table.raw", numpy.float32).reshape(size, size, size, 4)[..., :3]
-    at = read_picture(work / "in.png") * (size - 1)
+    script.write_text(program, encoding="utf-8")
+    return json.loads(run("node", script, file, work / "table.raw"))
+
+
+def filtered(table, coordinates):
+    """A texture as hardware reads it: trilinear between texel centres; blue is the slowest axis of the table."""
+    size = len(table)
+    at = numpy.clip(coordinates, 0, 1) * (size - 1)
     low = numpy.minimum(at.astype(int), size - 2)
     part = at - low
     out = 0
@@ -199,7 +243,24 @@ def three_cube(work, folder):
         weight = numpy.prod(numpy.where(corner, part, 1 - part), axis=1, keepdims=True)
         r, g, b = (low + corner).T
         out = out + weight * table[b, g, r]
-    write_png(work / "out.png", out)
+    return out
+
+
+def three_cube(work, folder):
+    said = by_three(THREE, folder / "look.srgb.cube", work)
+    table = numpy.fromfile(work / "table.raw", numpy.float32).reshape([said["size"]] * 3 + [4])[..., :3]
+    write_png(work / "out.png", filtered(table, read_picture(work / "in.png")))
+    return f"three.js r{said['revision']}"
+
+
+def three_ktx2(work, folder):
+    """Light in by log2 of light over 18 % grey from -11 to +12, as in Bevy's shader, and light out."""
+    said = by_three(KTX2, folder / "look.bevy.ktx2", work)
+    table = numpy.fromfile(work / "table.raw", numpy.float16).astype(float).reshape(said["size"] + [4])[..., :3]
+    codes = read_picture(work / "in.png")
+    light = numpy.where(codes <= 0.04045, codes / 12.92, ((codes + 0.055) / 1.055) ** 2.4)
+    shown = filtered(table, (numpy.log2(numpy.maximum(light, 1e-12) / 0.18) + 11) / 23)
+    write_png(work / "out.png", numpy.where(shown <= 0.0031308, 12.92 * shown, 1.055 * numpy.maximum(shown, 0) ** (1 / 2.4) - 0.055))
     return f"three.js r{said['revision']}"
 
 
@@ -209,8 +270,9 @@ PROGRAMS = {
     "gmic": [("look.srgb.cube", "map_clut", gmic_cube)],
     "oiiotool": [("look.srgb.cube", "--ociofiletransform", oiiotool_cube), ("look.ocio", "--ociodisplay", oiiotool_display)],
     "rawtherapee": [("look.srgb.hald.png", "film simulation", rawtherapee_hald)],
+    "darktable": [("look.srgb.cube", "lut 3D, tetrahedral, 16 bit", darktable_cube)],
     "blender": [("look.ocio", "view", blender_view)],
-    "three": [("look.srgb.cube", "LUTCubeLoader", three_cube)],
+    "three": [("look.srgb.cube", "LUTCubeLoader", three_cube), ("look.bevy.ktx2", "KTX2Loader, Bevy's shaper", three_ktx2)],
 }
 
 
@@ -228,7 +290,7 @@ def main():
     with tempfile.TemporaryDirectory() as work:
         work = pathlib.Path(work)
         write_png(work / "in.png", coded_colours().reshape(SIDE, SIDE, 3))
-        film = ["develop", work / "in.png", work / "film.png", "--look", folder / "look.toml"]
+        film = ["develop", work / "in.png", work / "film.png", "--look", folder / "look.toml", "--form", "reference"]
         run(arguments.xtask.resolve(), *film, "--input-coding", "srgb", "--bits", "16")
         film = read_picture(work / "film.png")
         print("| program | file | how | largest dE | mean dE |\n|---|---|---|---|---|")

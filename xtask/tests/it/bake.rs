@@ -121,6 +121,12 @@ fn every_program_gets_its_files_and_they_say_what_they_take() {
     let clf = text("look.scene-linear.clf");
     assert!(clf.contains("<InputDescriptor>scene-linear light, srgb primaries, 18 % grey at 0.18"), "{}", &clf[..900]);
     assert!(clf.contains("<OutputDescriptor>display srgb primaries, srgb coding"));
+    // Bevy takes light, whatever is said of the display.
+    let tables = [&[][..], &["--output-coding", "srgb"], &["--look", "b0/look.toml"]].map(|more| {
+        done(folder, &[&["bake", "--for", "bevy", "--quick", "--out", "b0"], more].concat());
+        fs::read(folder.join("b0/look.bevy.ktx2")).unwrap()
+    });
+    assert!(tables[0] == tables[1] && tables[0] == tables[2]);
     let other = done(folder, &["bake", "--for", "camera", "--shaper", "slog3", "--quick", "--out", "b"]);
     assert!(other.contains("look.slog3.cube") && files(&folder.join("b")) == ["look.slog3.cube", "look.toml"]);
     let named = done(folder, &["bake", "--for", "camera", "--output-coding", "srgb", "--quick", "--out", "c"]);

@@ -45,9 +45,40 @@ fn looks_that_contradict_themselves_are_named() {
     assert!(refused(folder, &["bake", "--out", "file"]).contains("error: file: is a file, expected a folder"));
     assert!(refused(folder, &["bake", "--look", "."]).contains("error: .: is a folder, expected a look.toml"));
     assert!(refused(folder, &["bake", "--print", "NONE"]).contains("did you mean \"none\"?"));
-    assert!(refused(folder, &["stocks", "velvia"]).contains("fuji-velvia-50"));
     let far = refused(folder, &["stocks", &"?".repeat(9999)]);
     assert!(far.contains("`cargo xtask stocks` lists all") && !far.contains("nearest") && far.len() < 200, "{far}");
+}
+
+/// A part of a name is enough where it fits one stock; files hold the id.
+#[test]
+fn films_are_named_by_a_part_of_their_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let named = ["bake", "--camera", "Portra 400", "--print", "2393", "--quick", "--out", "a"];
+    let output = program().args(named).current_dir(folder).output().unwrap();
+    let told = str::from_utf8(&output.stderr).unwrap();
+    assert!(told.contains("note: --camera Portra 400: taken for kodak-portra-400"), "{told}");
+    assert!(told.contains("note: --print 2393: taken for kodak-2393"), "{told}");
+    let look = fs::read_to_string(folder.join("a/look.toml")).unwrap();
+    assert!(look.contains("camera = \"kodak-portra-400\"") && look.contains("print = \"kodak-2393\""), "{look}");
+    assert!(done(folder, &["stocks", "velvia", "--out", "."]).contains("fuji-velvia-50.svg"));
+    let both = refused(folder, &["bake", "--camera", "pro-160"]);
+    assert!(both.contains("--camera: \"pro-160\" fits fuji-pro-160c and fuji-pro-160s"), "{both}");
+    fs::write(folder.join("part.toml"), "version = 2\ncamera = \"velvia\"\n").unwrap();
+    assert!(refused(folder, &["bake", "--look", "part.toml"]).contains("the nearest is fuji-velvia-50"));
+}
+
+/// An EXR for a display of absolute light says how bright its white is.
+#[test]
+fn white_luminance_goes_out_and_is_told() {
+    let folder = with_scene();
+    let folder = folder.path();
+    let hdr = ["--output-coding", "pq", "--output-space", "p3", "--white-luminance", "100"];
+    done(folder, &[&["develop", "scene.exr", "hdr.exr"][..], &hdr].concat());
+    let told = done(folder, &["develop", "hdr.exr", "out.exr", "--approach", "clip"]);
+    assert!(told.contains("the file says that (1, 1, 1) is 100 cd/m2"), "{told}");
+    let told = done(folder, &["develop", "out.exr", "again.png", "--approach", "clip"]);
+    assert!(!told.contains("cd/m2"), "{told}");
 }
 
 /// The scene, as `fixtures` writes it: something to develop.

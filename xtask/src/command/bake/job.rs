@@ -70,12 +70,17 @@ fn for_programs(arguments: &Arguments) -> Result<Vec<Job>> {
     if let Some(shaper) = arguments.shaper
         && (programs != [Target::Camera] || !shaper.is_coding())
     {
-        bail!("--shaper {} beside --for changes nothing, expected a coding with --for camera", shaper.word());
+        bail!(
+            "--shaper {} beside --for changes nothing, expected a coding with --for camera, or --shaper without --for",
+            shaper.word()
+        );
     }
     for target in programs {
         for mut table in target.tables() {
             table.recipe.shaper = arguments.shaper.unwrap_or(table.recipe.shaper);
-            let coding = target.usual_coding().filter(|_| !arguments.look.names_output_coding());
+            // Who takes light takes it whatever the display is.
+            let named = arguments.look.names_output_coding();
+            let coding = target.usual_coding().filter(|coding| *coding == TransferCurve::Linear || !named);
             let same = |job: &&mut Job| job.recipe == table.recipe && job.coding == coding;
             match jobs.iter_mut().find(same) {
                 Some(job) => {

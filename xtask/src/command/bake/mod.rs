@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 use anyhow::{Result, bail};
 use onelight::baked::{Baked, FileFormat, Form};
-use onelight::{Look, Process, Word as _};
+use onelight::{ColourSpaces, Look, Process, Word as _};
 use serde_json::{Value, json};
 
 pub(crate) use self::arguments::Arguments;
@@ -121,7 +121,11 @@ impl Table {
             Some(coding) => {
                 notes.push(format!("coded {} for its programs, not {}", coding.word(), own.word()));
                 let mut look = look.clone();
-                look.process.spaces_mut().output_coding = coding;
+                let spaces = look.process.spaces_mut();
+                // Only absolute light has a luminance.
+                let white_luminance =
+                    if coding.is_hdr() { spaces.white_luminance } else { ColourSpaces::default().white_luminance };
+                *spaces = ColourSpaces { output_coding: coding, white_luminance, ..*spaces };
                 Some(clock.time("compile", || look.look())?)
             }
             None => None,
