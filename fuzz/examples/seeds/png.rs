@@ -52,6 +52,12 @@ pub(super) fn files() -> Result<Vec<Seed>, Fault> {
         strip::write(&mut row_of_tiles, &Lut3d::identity(3)?, depth, StripGreen::Up, [""; 0])?;
         files.push((format!("strip-{name}.png"), row_of_tiles));
     }
+    // A look in black and white, of one channel: level 2.
+    let mut grey = Vec::new();
+    let mut encoder = Encoder::new(&mut grey, 8, 8);
+    encoder.set_color(ColorType::Grayscale);
+    encoder.write_header()?.write_image_data(&(0..64).map(|i| i * 4).collect::<Vec<u8>>())?;
+    files.push(("hald-grey.png".into(), grey));
     Ok(files)
 }
 

@@ -28,6 +28,29 @@ pub(super) fn looks() -> Vec<Seed> {
             b"version = 2\ninterimage = \"0.5,0.1\"\nwhite = \"lamp\"\ngamut = \"clip\"\nprint_curves = \"principal\"\n"
                 .to_vec(),
         ),
+        (
+            "effects.toml".to_owned(),
+            b"version = 2\nfilm_format = \"super16\"\ngrain = \"on\"\nsharpness = \"off\"\nhalation = \"auto\"\n\
+              antihalation = \"0.4\"\nseed = 4294967295\n"
+                .to_vec(),
+        ),
+        (
+            "exposed.toml".to_owned(),
+            b"version = 2\nev = -1.5\nscene_white = \"3200,10\"\noutput_space = \"dci-p3\"\noutput_coding = \"gamma26\"\n".to_vec(),
+        ),
+        (
+            "print-alone.toml".to_owned(),
+            b"version = 2\ncamera = \"none\"\nprint = \"kodak-2393\"\naim = \"sheet\"\npoints = [1, -2.5, 0]\n".to_vec(),
+        ),
+        (
+            "white-luminance.toml".to_owned(),
+            b"version = 2\noutput_space = \"rec2020\"\noutput_coding = \"pq\"\nwhite_luminance = 100\n".to_vec(),
+        ),
+        ("paper.toml".to_owned(), b"version = 2\ncamera = \"kodak-5222@9-min\"\nprint = \"kodak-polymax-fine-art\"\n".to_vec()),
+        (
+            "refused-idle-beams.toml".to_owned(),
+            b"version = 2\nbeam_density = [0.1, 0, 2]\ncalibration = \"exact\"\n".to_vec(),
+        ),
         ("refused-version.toml".to_owned(), b"version = 3\n".to_vec()),
         ("refused-newer-key.toml".to_owned(), b"version = 1\nwhite = \"film\"\n".to_vec()),
         ("refused-contradiction.toml".to_owned(), b"version = 1\napproach = \"clip\"\naim = \"sheet\"\n".to_vec()),
@@ -52,6 +75,13 @@ pub(super) fn looks() -> Vec<Seed> {
     words::<Tail>(&mut seeds, 1);
     words::<Projector>(&mut seeds, 1);
     words::<TransferCurve>(&mut seeds, 1);
+    // Absolute light goes out in wide primaries.
+    for word in ["pq", "hlg"] {
+        let name = format!("output_coding-{word}.toml");
+        if let Some((_, text)) = seeds.iter_mut().find(|(found, _)| *found == name) {
+            text.extend(b"output_space = \"p3\"\n");
+        }
+    }
     words::<WideGamut>(&mut seeds, 2);
     words::<White>(&mut seeds, 2);
     words::<PrintCurves>(&mut seeds, 2);
