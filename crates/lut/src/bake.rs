@@ -25,7 +25,7 @@ pub fn bake(
     f: impl Fn([f64; 3]) -> [f64; 3] + Sync,
     progress: impl Fn(usize) + Sync,
 ) -> Result<Lut3d, Error> {
-    along_axis(size, |coordinate| shaper.decode(coordinate), f, progress)
+    along_axis(size, &|coordinate| shaper.decode(coordinate), &f, &progress)
 }
 
 /// [`bake`] for a table whose coordinates are the caller's own coding: `f` takes coordinates from 0 to 1.
@@ -45,7 +45,7 @@ pub fn bake_coordinates(
     f: impl Fn([f64; 3]) -> [f64; 3] + Sync,
     progress: impl Fn(usize) + Sync,
 ) -> Result<Lut3d, Error> {
-    along_axis(size, |coordinate| coordinate, f, progress)
+    along_axis(size, &|coordinate| coordinate, &f, &progress)
 }
 
 /// Fills a table of `size` nodes a side by mapping rows of nodes through a compiled form, on all threads: as fast as the form maps
@@ -55,6 +55,14 @@ pub fn bake_coordinates(
 ///
 /// If `size` is out of bounds, or the form yields a value that is not finite.
 pub fn bake_form(size: usize, at: impl Fn([f64; 3]) -> [f64; 3] + Sync, form: &impl PixelMap) -> Result<Lut3d, Error> {
+    let mut entries = nodes_at(size, &at)?;
+    let rows = [size, size * size];
+    form.map_in_place(&mut PixelsMut::new(entries.as_flattened_mut(), Channels::Rgb, rows)?);
+    Lut3d::new(size, entries)
+}
+
+/// The scene-linear colours of all nodes.
+fn nodes_at(size: usize, at: &(dyn Fn([f64; 3]) -> [f64; 3] + Sync)) -> Result<Vec<[f32; 3]>, Error> {
     let mut entries = vec![[0.0; 3]; node_count(size)?];
     let place = |i: usize| i as f64 / (size - 1) as f64;
     entries.par_chunks_mut(size).enumerate().for_each(|(row, nodes)| {
@@ -63,16 +71,15 @@ pub fn bake_form(size: usize, at: impl Fn([f64; 3]) -> [f64; 3] + Sync, form: &i
             *node = at([place(red), green, blue]).map(|v| v as f32);
         }
     });
-    let rows = [size, size * size];
-    form.map_in_place(&mut PixelsMut::new(entries.as_flattened_mut(), Channels::Rgb, rows)?);
-    Lut3d::new(size, entries)
+    Ok(entries)
 }
 
+/// Compiled once, whatever is baked.
 fn along_axis(
     size: usize,
-    value_at: impl Fn(f64) -> f64,
-    f: impl Fn([f64; 3]) -> [f64; 3] + Sync,
-    progress: impl Fn(usize) + Sync,
+    value_at: &dyn Fn(f64) -> f64,
+    f: &(dyn Fn([f64; 3]) -> [f64; 3] + Sync),
+    progress: &(dyn Fn(usize) + Sync),
 ) -> Result<Lut3d, Error> {
     let mut entries = vec![[0.0; 3]; node_count(size)?];
     let axis: Vec<f64> = (0..size).map(|i| value_at(i as f64 / (size - 1) as f64)).collect();

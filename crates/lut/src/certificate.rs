@@ -16,6 +16,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 pub use self::bands::Band;
 pub use self::colour_set::{ColourSet, SetDeviation};
+use self::compared::{Difference, Map, OnProgress};
 pub use self::folds::Folds;
 pub use self::hue_steps::HueSteps;
 pub use self::neutral_axis::{Fall, NeutralAxis};
@@ -146,20 +147,33 @@ where
     D: Fn(&[f64; 3], &[f64; 3]) -> f64 + Sync,
     L: Fn(&[f64; 3]) -> f64 + Sync,
 {
+    let Maps { reference, candidate, difference, luminance } = maps;
+    measured(samples, &Maps { reference, candidate, difference, luminance }, search, &progress)
+}
+
+/// [`Maps`] whose closures are not known.
+type AnyMaps<'a> = Maps<Map<'a>, Map<'a>, Difference<'a>, &'a dyn Fn(&[f64; 3]) -> f64>;
+
+fn measured(
+    samples: &Samples,
+    maps: &AnyMaps<'_>,
+    search: Search,
+    progress: OnProgress<'_>,
+) -> Result<Certificate, Error> {
     let law = samples.law();
     let done = AtomicUsize::new(0);
     let count_more = |more: usize| progress(done.fetch_add(more, Ordering::Relaxed) + more);
-    let candidate = samples.evaluate(&maps.candidate, &count_more);
+    let candidate = samples.evaluate(maps.candidate, &count_more);
 
     let drawn = samples.drawn(&candidate);
-    let differences = drawn.differences(&maps.difference);
+    let differences = drawn.differences(maps.difference);
     let overall = Deviation::of(drawn.colours, differences.clone())?;
     let bands = bands::bands(law, drawn.colours, &differences)?;
     let (max_found, max_found_at) = match search {
         Search::SamplesOnly => (overall.max, overall.worst),
         Search::Ascent => {
             let measure = |rgb| (maps.difference)(&(maps.reference)(rgb), &(maps.candidate)(rgb));
-            ascent::largest(law, drawn.colours, &differences, measure, &count_more)?
+            ascent::largest(law, drawn.colours, &differences, &measure, &count_more)?
         }
     };
     Ok(Certificate {
@@ -170,9 +184,9 @@ where
         max_found_at,
         overall,
         bands,
-        neutral_axis: neutral_axis::measure(law, &samples.greys(&candidate), &maps.difference, &maps.luminance)?,
-        colour_sets: colour_set::measure(samples.sets(), &samples.named(&candidate), &maps.difference)?,
+        neutral_axis: neutral_axis::measure(law, &samples.greys(&candidate), maps.difference, maps.luminance)?,
+        colour_sets: colour_set::measure(samples.sets(), &samples.named(&candidate), maps.difference)?,
         folds: folds::count(&samples.stencils(&candidate)),
-        hue_steps: hue_steps::measure(&samples.circles(&candidate), &maps.difference)?,
+        hue_steps: hue_steps::measure(&samples.circles(&candidate), maps.difference)?,
     })
 }

@@ -57,8 +57,12 @@ pub fn deviation<Colour>(
     candidate: impl Fn([f64; 3]) -> Colour + Sync,
     difference: impl Fn(&Colour, &Colour) -> f64 + Sync,
 ) -> Result<Deviation, Error> {
-    let differences = samples.par_iter().map(|&sample| difference(&reference(sample), &candidate(sample))).collect();
-    Deviation::of(samples, differences)
+    measured(samples, &|sample| difference(&reference(sample), &candidate(sample)))
+}
+
+/// Compiled once, whatever is measured.
+fn measured(samples: &[[f64; 3]], difference: &(dyn Fn([f64; 3]) -> f64 + Sync)) -> Result<Deviation, Error> {
+    Deviation::of(samples, samples.par_iter().map(|&sample| difference(sample)).collect())
 }
 
 impl Deviation {

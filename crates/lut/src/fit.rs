@@ -82,6 +82,17 @@ pub fn fit(
     difference: impl Fn(usize, [f32; 3]) -> f64 + Sync,
     settings: FitSettings,
 ) -> Result<Lut3d, Error> {
+    fit_by(start, interpolation, samples, &difference, settings)
+}
+
+/// Compiled once, whatever is fitted.
+fn fit_by(
+    start: &Lut3d,
+    interpolation: Interpolation,
+    samples: &[FitSample],
+    difference: &(dyn Fn(usize, [f32; 3]) -> f64 + Sync),
+    settings: FitSettings,
+) -> Result<Lut3d, Error> {
     if samples.is_empty() {
         return Err(ErrorKind::NoSamples.into());
     }

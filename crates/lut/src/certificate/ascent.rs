@@ -1,5 +1,6 @@
 use rayon::prelude::*;
 
+use super::compared::OnProgress;
 use super::sampling_law::SamplingLaw;
 use super::scene_coordinates::SceneCoordinates;
 use crate::error::{Error, ErrorKind};
@@ -15,6 +16,9 @@ const LAST_SCALE: f64 = 1.0 / 1024.0;
 const ROUNDS: usize = 3;
 const KEPT_OF: usize = 4;
 
+/// The difference at a colour of the scene, called from all threads.
+type Measure<'a> = &'a (dyn Fn([f64; 3]) -> f64 + Sync);
+
 /// The largest difference that climbs from the worst colours meet, and its colour.
 ///
 /// The budget goes by rounds: all climb a little, then the best quarter of them, then the best quarter of those.
@@ -23,8 +27,8 @@ pub(super) fn largest(
     law: &SamplingLaw,
     colours: &[[f64; 3]],
     differences: &[f64],
-    measure: impl Fn([f64; 3]) -> f64 + Sync,
-    count_more: &(impl Fn(usize) + Sync),
+    measure: Measure<'_>,
+    count_more: OnProgress<'_>,
 ) -> Result<(f64, [f64; 3]), Error> {
     let worst = worst(differences, law.ascents.max(1));
     let mut climbs: Vec<Climb> = worst.into_iter().map(|i| Climb::new(i, colours[i], differences[i])).collect();
@@ -35,7 +39,7 @@ pub(super) fn largest(
         }
         let each = budget / ROUNDS / climbs.len().max(1);
         climbs.par_iter_mut().try_for_each(|climb| -> Result<(), Error> {
-            let spent = climb.run(law, each, &measure)?;
+            let spent = climb.run(law, each, measure)?;
             count_more(spent);
             Ok(())
         })?;
@@ -76,7 +80,7 @@ impl Climb {
     }
 
     /// Climbs for at most so many evaluations; says how many it made.
-    fn run(&mut self, law: &SamplingLaw, budget: usize, measure: &impl Fn([f64; 3]) -> f64) -> Result<usize, Error> {
+    fn run(&mut self, law: &SamplingLaw, budget: usize, measure: Measure<'_>) -> Result<usize, Error> {
         let mut left = budget;
         while left > 0 && self.scale >= LAST_SCALE {
             let base = self.at;
@@ -106,7 +110,7 @@ impl Climb {
         [stops, saturation, hue]: [f64; 3],
         law: &SamplingLaw,
         left: &mut usize,
-        measure: &impl Fn([f64; 3]) -> f64,
+        measure: Measure<'_>,
     ) -> Result<bool, Error> {
         let trial = [
             stops.max(law.stops[0]).min(law.stops[1]),

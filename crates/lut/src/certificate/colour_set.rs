@@ -1,4 +1,4 @@
-use super::compared::Compared;
+use super::compared::{Compared, Difference};
 use crate::deviation::Deviation;
 use crate::error::{Error, ErrorKind};
 
@@ -97,7 +97,7 @@ pub(super) fn exposed(set: &ColourSet) -> impl Iterator<Item = [f64; 3]> {
 pub(super) fn measure(
     sets: &[ColourSet],
     named: &Compared<'_>,
-    difference: &(impl Fn(&[f64; 3], &[f64; 3]) -> f64 + Sync),
+    difference: Difference<'_>,
 ) -> Result<Vec<SetDeviation>, Error> {
     let differences = named.differences(difference);
     let mut from = 0;

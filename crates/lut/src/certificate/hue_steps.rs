@@ -1,4 +1,4 @@
-use super::compared::Compared;
+use super::compared::{Compared, Difference};
 use super::scene_coordinates::SceneCoordinates;
 use crate::error::{Error, ErrorKind};
 
@@ -68,10 +68,7 @@ pub(super) fn circles() -> impl Iterator<Item = [f64; 3]> {
     })
 }
 
-pub(super) fn measure(
-    circles: &Compared<'_>,
-    difference: &(impl Fn(&[f64; 3], &[f64; 3]) -> f64 + Sync),
-) -> Result<Vec<HueSteps>, Error> {
+pub(super) fn measure(circles: &Compared<'_>, difference: Difference<'_>) -> Result<Vec<HueSteps>, Error> {
     let differences = circles.differences(difference);
     let parts = circles.reference.chunks_exact(STEPS).zip(circles.candidate.chunks_exact(STEPS));
     STOPS
@@ -102,7 +99,7 @@ pub(super) fn measure(
 }
 
 /// The difference from each colour to the next; the last goes back to the first.
-fn steps(values: &[[f64; 3]], difference: &impl Fn(&[f64; 3], &[f64; 3]) -> f64) -> Vec<f64> {
+fn steps(values: &[[f64; 3]], difference: Difference<'_>) -> Vec<f64> {
     let next = values.iter().cycle().skip(1);
     values.iter().zip(next).map(|(a, b)| difference(a, b)).collect()
 }

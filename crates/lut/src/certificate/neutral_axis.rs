@@ -1,4 +1,4 @@
-use super::compared::Compared;
+use super::compared::{Compared, Difference};
 use super::sampling_law::SamplingLaw;
 use super::scene_coordinates::grey;
 use crate::deviation::Deviation;
@@ -73,8 +73,8 @@ pub(super) fn greys(law: &SamplingLaw) -> impl Iterator<Item = [f64; 3]> {
 pub(super) fn measure(
     law: &SamplingLaw,
     greys: &Compared<'_>,
-    difference: &(impl Fn(&[f64; 3], &[f64; 3]) -> f64 + Sync),
-    luminance: &impl Fn(&[f64; 3]) -> f64,
+    difference: Difference<'_>,
+    luminance: &dyn Fn(&[f64; 3]) -> f64,
 ) -> Result<NeutralAxis, Error> {
     let differences = greys.differences(difference);
     let (found, worst) = Deviation::with_worst_index(greys.colours, differences)?;
@@ -92,7 +92,7 @@ pub(super) fn measure(
 fn fall(
     law: &SamplingLaw,
     values: &[[f64; 3]],
-    luminance: &impl Fn(&[f64; 3]) -> f64,
+    luminance: &dyn Fn(&[f64; 3]) -> f64,
     what: &'static str,
 ) -> Result<Fall, Error> {
     let luminances: Vec<f64> = values.iter().map(luminance).collect();

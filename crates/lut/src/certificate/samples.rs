@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::colour_set::ColourSet;
-use super::compared::Compared;
+use super::compared::{Compared, Map, OnProgress};
 use super::sampling_law::{SamplingLaw, Search};
 use super::{colour_set, folds, hue_steps, neutral_axis};
 use crate::deviation::Deviation;
@@ -61,6 +61,15 @@ impl Samples {
         reference: impl Fn([f64; 3]) -> [f64; 3] + Sync,
         progress: impl Fn(usize) + Sync,
     ) -> Result<Self, Error> {
+        Self::of_map(law, sets, &reference, &progress)
+    }
+
+    fn of_map(
+        law: &SamplingLaw,
+        sets: &[ColourSet],
+        reference: Map<'_>,
+        progress: OnProgress<'_>,
+    ) -> Result<Self, Error> {
         law.check()?;
         let sampler = SceneSampler::with_seed(law.stops[0]..=law.stops[1], law.seed)?;
         let mut colours: Vec<[f64; 3]> = sampler.clone().take(law.count).collect();
@@ -76,7 +85,7 @@ impl Samples {
         let stencils = circles.end..colours.len();
 
         let done = AtomicUsize::new(0);
-        let reference = values(&colours, &reference, &|more| progress(done.fetch_add(more, Ordering::Relaxed) + more));
+        let reference = values(&colours, reference, &|more| progress(done.fetch_add(more, Ordering::Relaxed) + more));
         let parts = Parts { drawn, greys, named, circles, stencils };
         Ok(Self { law: law.clone(), sets: sets.to_vec(), colours, reference, parts })
     }
@@ -114,11 +123,7 @@ impl Samples {
         Deviation::of(colours, compared.differences(&difference))
     }
 
-    pub(super) fn evaluate(
-        &self,
-        candidate: &(impl Fn([f64; 3]) -> [f64; 3] + Sync),
-        count_more: &(impl Fn(usize) + Sync),
-    ) -> Vec<[f64; 3]> {
+    pub(super) fn evaluate(&self, candidate: Map<'_>, count_more: OnProgress<'_>) -> Vec<[f64; 3]> {
         values(&self.colours, candidate, count_more)
     }
 
@@ -163,11 +168,7 @@ impl fmt::Debug for Samples {
     }
 }
 
-fn values(
-    colours: &[[f64; 3]],
-    map: &(impl Fn([f64; 3]) -> [f64; 3] + Sync),
-    count_more: &(impl Fn(usize) + Sync),
-) -> Vec<[f64; 3]> {
+fn values(colours: &[[f64; 3]], map: Map<'_>, count_more: OnProgress<'_>) -> Vec<[f64; 3]> {
     /// Large beside the cost of reporting progress, small beside all colours.
     const CHUNK: usize = 256;
     let mut values = vec![[0.0; 3]; colours.len()];
