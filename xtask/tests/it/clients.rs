@@ -171,10 +171,15 @@ fn every_format_is_written_where_it_fits() {
         ),
         (&["--form", "structured", "--size", "9", "--storage", "unorm10", "--coding", "display"], &[SCENE_CLF]),
     ] {
-        bake(folder, arguments);
-        for file in files.iter().chain(&["look.json", "look.toml", "preview.png"]) {
+        bake(folder, &[arguments, &["--quick"]].concat());
+        for file in files.iter().chain(&["look.toml"]) {
             assert!(folder.join(file).is_file(), "{arguments:?}: {file}");
             fs::remove_file(folder.join(file)).unwrap();
         }
+    }
+    // What comes beside the files of any format.
+    bake(folder, &["--shaper", "slog3", "--format", "vlt"]);
+    for file in ["look.slog3.vlt", "look.json", "look.toml", "preview.png", "chart.png"] {
+        assert!(folder.join(file).is_file(), "{file}");
     }
 }
