@@ -297,6 +297,11 @@ impl LookArguments {
         self.look.is_some() || self.output_coding.is_some()
     }
 
+    /// Whether the command line itself says how the display codes.
+    pub(crate) fn types_output_coding(&self) -> bool {
+        self.output_coding.is_some()
+    }
+
     /// Whether the command line says what the input's primaries are: only that weighs more than the input's own word.
     pub(crate) fn names_input_space(&self) -> bool {
         self.input_space.is_some()

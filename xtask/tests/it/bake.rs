@@ -121,6 +121,15 @@ fn every_program_gets_its_files_and_they_say_what_they_take() {
     let clf = text("look.scene-linear.clf");
     assert!(clf.contains("<InputDescriptor>scene-linear light, srgb primaries, 18 % grey at 0.18"), "{}", &clf[..900]);
     assert!(clf.contains("<OutputDescriptor>display srgb primaries, srgb coding"));
+    // A description names a coding, if only the default's: it is kept, and said where programs usually have another.
+    let told = |more: &[&str]| done(folder, &[&["bake", "--for", "resolve", "--quick", "--out", "r"], more].concat());
+    assert!(told(&[]).contains("coded gamma24 for its programs, not srgb"));
+    let of_file = told(&["--look", "r/look.toml"]);
+    assert!(
+        of_file.contains("coded srgb as the look says, where gamma24 is usual for resolve (--output-coding gamma24)"),
+        "{of_file}"
+    );
+    assert!(!told(&["--look", "r/look.toml", "--output-coding", "srgb"]).contains("usual for"));
     // Bevy takes light, whatever is said of the display.
     let tables = [&[][..], &["--output-coding", "srgb"], &["--look", "b0/look.toml"]].map(|more| {
         done(folder, &[&["bake", "--for", "bevy", "--quick", "--out", "b0"], more].concat());

@@ -130,6 +130,18 @@ impl Table {
             }
             None => None,
         };
+        // A description always names a coding, be it the default's.
+        let unusual = job.loads.iter().find_map(|(target, _)| {
+            target.usual_coding().filter(|usual| job.coding.is_none() && *usual != own).map(|usual| (target, usual))
+        });
+        if let Some((target, usual)) = unusual.filter(|_| !arguments.look.types_output_coding()) {
+            notes.push(format!(
+                "coded {} as the look says, where {} is usual for {} (--output-coding {1})",
+                own.word(),
+                usual.word(),
+                target.word()
+            ));
+        }
         let film = other.as_ref().unwrap_or(film);
         let baked = clock.time("bake", || job::baked(film, &job.recipe, scene))?;
         if let Some(note) = too_wide_for_cube(&job, &baked) {
