@@ -203,8 +203,8 @@ pub(crate) fn direct(form: &DirectForm, target: TargetCoding) -> Result<UniformW
     let print_curves = parts.print.as_ref().map_or(&parts.develop.curves, |DirectPrint { curves, .. }| curves);
     words.member("print_curves").curves(print_curves, SECOND_ROW)?;
     words.member("coding").coding(&coding);
-    words.member("print_count").int(print.len().div_ceil(4));
-    words.member("projection_count").int(projection.len().div_ceil(4));
+    words.member("print_count").int(print.len());
+    words.member("projection_count").int(projection.len());
     words.member("coded").flag(coded);
     words.flags(&parts.expose, &parts.develop);
     words.pad();

@@ -12,9 +12,8 @@ struct OnelightCurves {
 
 // A point holds its value and the rise to the next; the last rises by 0.
 fn onelight_curve(points: texture_2d<f32>, row: i32, position: f32) -> f32 {
-    let cell = i32(position);
-    let point = textureLoad(points, vec2i(cell, row), 0);
-    return point.x + point.y * (position - f32(cell));
+    let point = textureLoad(points, vec2i(i32(position), row), 0);
+    return point.x + point.y * fract(position);
 }
 
 fn onelight_curves(points: texture_2d<f32>, curves: OnelightCurves, input: vec3f) -> vec3f {

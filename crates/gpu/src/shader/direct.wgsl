@@ -19,7 +19,7 @@ struct OnelightDirect {
     curves: OnelightCurves,
     print_curves: OnelightCurves,
     coding: OnelightCoding,
-    // Groups in use; a film without a print has none there.
+    // Terms in use; a film without a print has none there.
     print_count: u32,
     projection_count: u32,
     // Whether what comes out is still to be decoded for an sRGB view.
@@ -32,26 +32,60 @@ struct OnelightDirect {
     projection: array<OnelightTerms, 32>,
 }
 
-// What four terms add to the sums, each in one multiply-add.
-fn onelight_four_terms(sum: vec3f, terms: OnelightTerms, x: vec3f) -> vec3f {
-    let light = exp2(-(terms.rate_red * x.x + terms.rate_green * x.y + terms.rate_blue * x.z));
+// What two terms add to the sums, each in one multiply-add.
+fn onelight_two_terms(
+    sum: vec3f,
+    x: vec3f,
+    rate_red: vec2f,
+    rate_green: vec2f,
+    rate_blue: vec2f,
+    weight_red: vec2f,
+    weight_green: vec2f,
+    weight_blue: vec2f,
+) -> vec3f {
+    let light = exp2(-(rate_red * x.x + rate_green * x.y + rate_blue * x.z));
     return sum
-        + vec3f(terms.weight_red.x, terms.weight_green.x, terms.weight_blue.x) * light.x
-        + vec3f(terms.weight_red.y, terms.weight_green.y, terms.weight_blue.y) * light.y
-        + vec3f(terms.weight_red.z, terms.weight_green.z, terms.weight_blue.z) * light.z
-        + vec3f(terms.weight_red.w, terms.weight_green.w, terms.weight_blue.w) * light.w;
+        + vec3f(weight_red.x, weight_green.x, weight_blue.x) * light.x
+        + vec3f(weight_red.y, weight_green.y, weight_blue.y) * light.y;
+}
+
+// What a group adds, of which so many terms are in use: the last two are left out where there are none.
+fn onelight_group(before: vec3f, terms: OnelightTerms, x: vec3f, count: u32) -> vec3f {
+    var sum = onelight_two_terms(
+        before,
+        x,
+        terms.rate_red.xy,
+        terms.rate_green.xy,
+        terms.rate_blue.xy,
+        terms.weight_red.xy,
+        terms.weight_green.xy,
+        terms.weight_blue.xy,
+    );
+    if count > 2u {
+        sum = onelight_two_terms(
+            sum,
+            x,
+            terms.rate_red.zw,
+            terms.rate_green.zw,
+            terms.rate_blue.zw,
+            terms.weight_red.zw,
+            terms.weight_green.zw,
+            terms.weight_blue.zw,
+        );
+    }
+    return sum;
 }
 
 // Twin: `ExponentialSum::apply`. The first groups, which are all that a fitted form has, stand at fixed positions: their numbers
 // are then operands, not loads.
 fn onelight_print(x: vec3f) -> vec3f {
     let count = onelight_look.print_count;
-    var sum = onelight_four_terms(vec3f(0.0), onelight_look.print[0], x);
-    if count > 1u {
-        sum = onelight_four_terms(sum, onelight_look.print[1], x);
+    var sum = onelight_group(vec3f(0.0), onelight_look.print[0], x, count);
+    if count > 4u {
+        sum = onelight_group(sum, onelight_look.print[1], x, count - 4u);
     }
-    for (var i = 2u; i < count; i++) {
-        sum = onelight_four_terms(sum, onelight_look.print[i], x);
+    for (var first = 8u; first < count; first += 4u) {
+        sum = onelight_group(sum, onelight_look.print[first / 4u], x, count - first);
     }
     return sum;
 }
@@ -59,15 +93,15 @@ fn onelight_print(x: vec3f) -> vec3f {
 // As `onelight_print`.
 fn onelight_projection(x: vec3f) -> vec3f {
     let count = onelight_look.projection_count;
-    var sum = onelight_four_terms(vec3f(0.0), onelight_look.projection[0], x);
-    if count > 1u {
-        sum = onelight_four_terms(sum, onelight_look.projection[1], x);
+    var sum = onelight_group(vec3f(0.0), onelight_look.projection[0], x, count);
+    if count > 4u {
+        sum = onelight_group(sum, onelight_look.projection[1], x, count - 4u);
     }
-    if count > 2u {
-        sum = onelight_four_terms(sum, onelight_look.projection[2], x);
+    if count > 8u {
+        sum = onelight_group(sum, onelight_look.projection[2], x, count - 8u);
     }
-    for (var i = 3u; i < count; i++) {
-        sum = onelight_four_terms(sum, onelight_look.projection[i], x);
+    for (var first = 12u; first < count; first += 4u) {
+        sum = onelight_group(sum, onelight_look.projection[first / 4u], x, count - first);
     }
     return sum;
 }

@@ -12,7 +12,7 @@ fn onelight_finite(v: vec3f) -> vec3f {
     let bits = bitcast<vec3u>(v);
     let magnitude = bits & vec3u(~ONELIGHT_SIGN_BIT);
     let nan = magnitude > vec3u(ONELIGHT_INFINITY_BITS);
-    // A product, as GLSL ES 3.00 selects among floats alone.
-    let held = min(magnitude, vec3u(ONELIGHT_INPUT_MAX_BITS)) * vec3u(!nan);
-    return bitcast<vec3f>(held | (bits & vec3u(ONELIGHT_SIGN_BIT)));
+    let held = min(magnitude, vec3u(ONELIGHT_INPUT_MAX_BITS)) | (bits & vec3u(ONELIGHT_SIGN_BIT));
+    // Among floats, which are numbers by now: GLSL ES 3.00 selects no integers.
+    return select(bitcast<vec3f>(held), vec3f(0.0), nan);
 }
