@@ -33,8 +33,9 @@ pub(crate) struct LookArguments {
     /// [default: kodak-5207]; bake --for ocio takes several between commas
     #[arg(long, value_name = "NAME|DIR|none")]
     camera: Option<String>,
-    /// Film that a negative is printed on, or a folder with its data sheet, or none [default: kodak-2383 for negatives]
-    #[arg(long, value_name = "NAME|DIR|none")]
+    /// Film that a negative is printed on, or a folder with its data sheet; scan for a negative that is scanned and inverted, or none
+    /// [default: kodak-2383 for negatives]
+    #[arg(long, value_name = "NAME|DIR|scan|none")]
     print: Option<String>,
     /// What an 18 % grey card becomes [default: neutral]
     #[arg(long, value_parser = words::<Aim>())]
@@ -152,6 +153,9 @@ impl ChosenLook {
     }
 }
 
+/// The word of `--print` for a negative that is scanned.
+const SCAN: &str = "scan";
+
 /// A film that the command line or a description names.
 enum Named {
     BuiltIn(String),
@@ -161,10 +165,10 @@ enum Named {
 impl Named {
     /// As an option has it; a part of a name goes to what `is_wanted` there.
     fn of_word(option: &str, word: &str, is_wanted: impl Fn(&Stock) -> bool) -> Result<Self> {
-        if own_stock::is_folder(word) {
+        if word != SCAN && own_stock::is_folder(word) {
             return own_stock::read(Path::new(word)).map(|own| Self::Own(Box::new(own)));
         }
-        if word == "none" {
+        if word == "none" || word == SCAN {
             return Ok(Self::BuiltIn(word.to_owned()));
         }
         let found = stock_named(word, is_wanted).with_context(|| option.to_owned())?;
@@ -172,6 +176,11 @@ impl Named {
             eprintln!("note: {option} {word}: taken for {}", found.id());
         }
         Ok(Self::BuiltIn(found.id().to_owned()))
+    }
+
+    /// Whether it stands for no film, but for a scan of the negative.
+    fn is_scan(&self) -> bool {
+        matches!(self, Self::BuiltIn(id) if id == SCAN)
     }
 
     /// As a description in `file` has it.
@@ -255,10 +264,14 @@ impl LookArguments {
         self.switches.apply(&mut keys);
         self.effects.apply(&mut keys);
         self.switches.refuse_idle(&keys)?;
+        if keys.print.as_deref() == Some(SCAN) {
+            eprintln!("note: print {SCAN}: {}", onelight::ScanRule::default().assumption());
+        }
         if keys.camera_sheet.is_none() && keys.print_sheet.is_none() {
             return Ok(ChosenLook { process: keys.process()?, films: None, camera: keys.camera });
         }
-        let films = Films { camera: camera.stock()?, print: print.map(Named::stock).transpose()? };
+        let print = print.filter(|print| !print.is_scan()).map(Named::stock).transpose()?;
+        let films = Films { camera: camera.stock()?, print };
         Ok(ChosenLook { process: keys.process_with(&films)?, films: Some(Arc::new(films)), camera: keys.camera })
     }
 

@@ -1,11 +1,10 @@
 //! A negative on print film, on paper, and scanned.
 
-use onelight::printing::{EquivalentNeutralDensity, Scan};
 use onelight::spectra::{DisplayLinear, MID_GREY};
-use onelight::{FilmProcess, Printing, stock};
+use onelight::{FilmProcess, Printing};
 
 use super::chart::{Scene, chroma};
-use crate::error::{Error, Result};
+use crate::error::Result;
 
 /// The negatives that are seen in every way.
 const NEGATIVES: [&str; 3] = ["kodak-5207", "kodak-portra-400", "fuji-pro-400h"];
@@ -35,12 +34,8 @@ pub(super) fn all(scene: &Scene) -> Result<Vec<Way>> {
             let look = process.compile()?;
             ways.push(way(scene, look.name().replace('_', " on "), |rgb| look.develop_linear(rgb)));
         }
-        // Behind the same negative as a print's.
-        let look = FilmProcess::for_camera(id)?.compile()?;
-        let card = look.stages([MID_GREY; 3]).amounts;
-        let scan = Scan::new(&stock(id)?, card, EquivalentNeutralDensity::default());
-        let scan = scan.map_err(|error| Error::of(id, error))?;
-        ways.push(way(scene, format!("{id}, scanned"), |rgb| scan.positive(look.stages(rgb).amounts)));
+        let look = FilmProcess::scanned(id).compile()?;
+        ways.push(way(scene, format!("{id}, scanned"), |rgb| look.develop_linear(rgb)));
     }
     Ok(ways)
 }

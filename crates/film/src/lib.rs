@@ -72,7 +72,7 @@ pub use printable::printable;
 pub use quantity::{Density, DyeAmount, EXPOSURE_FLOOR, LogExposure};
 pub use sensitivity::{SensitivityPeak, SpectralSensitivity, Tail};
 pub use stock::{
-    AimDensities, ExposureAxis, Figures, Image, MidGrey, Normalisation, Origin, SheetText, Stock, StockKind,
+    AimDensities, ExposureAxis, Figures, FilmSize, Image, MidGrey, Normalisation, Origin, SheetText, Stock, StockKind,
     Uncertainty,
 };
 pub use table::{MAX_COLUMNS, MAX_ROWS, NumberTable};

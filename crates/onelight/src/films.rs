@@ -1,4 +1,5 @@
 use onelight_film::{Image, Stock, StockKind};
+use onelight_printing::ScanRule;
 
 use crate::error::{Error, ErrorKind};
 use crate::process::{FilmProcess, FirstProcess, Process, StockRef, usual_print};
@@ -18,35 +19,42 @@ use crate::stocks::stock;
 pub struct Films {
     /// A negative, a reversal or an instant film.
     pub camera: Stock,
-    /// The print film or paper of a negative; `None` for reversal film that is shown itself.
+    /// The print film or paper of a negative; `None` for reversal film that is shown itself, and for a negative that is scanned.
     pub print: Option<Stock>,
 }
 
 impl Films {
     /// The built-in films that a description names, checked as [`Films::check`] does.
-    pub(crate) fn built_in(camera: &StockRef, print: Option<&StockRef>) -> Result<Self, Error> {
+    pub(crate) fn built_in(camera: &StockRef, print: Option<&StockRef>, scan: Option<ScanRule>) -> Result<Self, Error> {
         let films = Self { camera: built_in(camera)?, print: print.map(built_in).transpose()? };
-        films.check()?;
+        films.check(scan)?;
         Ok(films)
     }
 
     pub(crate) fn of_film(process: &FilmProcess) -> Result<Self, Error> {
-        Self::built_in(&process.camera, process.print.as_ref().map(|print| &print.film))
+        Self::built_in(&process.camera, process.print.as_ref().map(|print| &print.film), process.scan)
     }
 
     pub(crate) fn of_first(process: &FirstProcess) -> Result<Self, Error> {
-        Self::built_in(&process.camera, process.print.as_ref())
+        Self::built_in(&process.camera, process.print.as_ref(), None)
     }
 
-    /// Whether the films fit together.
-    pub(crate) fn check(&self) -> Result<(), Error> {
+    /// Whether the films fit together, where the one in the camera is scanned or not.
+    pub(crate) fn check(&self, scan: Option<ScanRule>) -> Result<(), Error> {
         let (camera, kind, image) = (self.camera.id(), self.camera.kind(), self.camera.image());
         let usual = usual_print(image);
+        if scan.is_some() && kind.is_camera_film() && kind != StockKind::Negative {
+            let (article, kind) = if kind == StockKind::Instant { ("an", kind.name()) } else { ("a", kind.name()) };
+            return refuse(format!(
+                "{camera} is {article} {kind} and is shown as it is, expected print none instead of a scan, whose rule inverts negatives"
+            ));
+        }
         let Some(print) = &self.print else {
             return match kind {
-                StockKind::Negative => {
-                    refuse(format!("{camera} is a negative, expected a print film to see it on, such as {usual}"))
-                }
+                StockKind::Negative if scan.is_some() => Ok(()),
+                StockKind::Negative => refuse(format!(
+                    "{camera} is a negative, expected a print film to see it on, such as {usual}, or a scan"
+                )),
                 StockKind::Reversal | StockKind::Instant => Ok(()),
                 kind => Err(Error::not_for_a_camera(camera, kind)),
             };
@@ -77,8 +85,8 @@ impl Films {
     }
 
     /// Whether a description prints where these films are printed.
-    pub(crate) fn check_for(&self, printed: bool) -> Result<(), Error> {
-        self.check()?;
+    pub(crate) fn check_for(&self, printed: bool, scan: Option<ScanRule>) -> Result<(), Error> {
+        self.check(scan)?;
         let camera = self.camera.id();
         match (&self.print, printed) {
             (Some(print), false) => refuse(format!(

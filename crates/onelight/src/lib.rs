@@ -120,6 +120,7 @@ mod meter;
 mod pairs;
 #[cfg(feature = "picture")]
 mod picture_colours;
+mod positive;
 mod process;
 mod process_keys;
 mod reference;
@@ -150,11 +151,13 @@ pub use onelight_lut::{Channels, PixelMap, Pixels, PixelsMut};
 #[cfg(feature = "picture")]
 pub use onelight_picture as picture;
 pub use onelight_printing as printing;
-pub use onelight_printing::{Aim, Calibration, Filters, HeatGlass, Infrared, PrinterLight, Projector, White, Wratten};
+pub use onelight_printing::{
+    Aim, Calibration, Filters, HeatGlass, Infrared, PrinterLight, Projector, ScanRule, White, Wratten,
+};
 pub use onelight_spatial as spatial;
 pub use onelight_spectra as spectra;
 pub use onelight_spectra::{DisplayLinear, Reconstruction, TransferCurve};
-pub use pairs::{looks_with, pairs};
+pub use pairs::{looks_with, pairs, seen_on};
 #[cfg(feature = "picture")]
 pub use picture_colours::{colour_tag, space_of};
 pub use process::{

@@ -1,11 +1,10 @@
 use nalgebra::Matrix3;
 use onelight_film::{
-    AmountCurve, DyeAmount, ExposureMatrix, Image, InterImageEffect, LogExposure, PerLayer, PrintCurves, Stock, Tail,
-    WideGamut,
+    AmountCurve, Density, DyeAmount, ExposureMatrix, Image, InterImageEffect, LogExposure, PerLayer, PrintCurves,
+    Stock, WideGamut,
 };
 use onelight_printing::{
-    Duplication, EquivalentNeutralDensity, LitDuplication, PrinterLights, Projection, Projector, White, print_mid_grey,
-    print_target, reversal_target,
+    EquivalentNeutralDensity, PrinterLights, Projection, ScanRule, White, print_mid_grey, print_target, reversal_target,
 };
 use onelight_spectra::quantity::Power;
 use onelight_spectra::{Basis, DisplayCoding, DisplayDifference, DisplayLinear, SpectralDistribution, SpectralShape};
@@ -13,7 +12,8 @@ use onelight_spectra::{Basis, DisplayCoding, DisplayDifference, DisplayLinear, S
 use crate::about::About;
 use crate::error::{Error, ErrorKind};
 use crate::films::Films;
-use crate::process::{Approach, ColourSpaces, FilmProcess, InterImageChoice, Printing, Process};
+use crate::positive::{Positive, PrintStep, ScanStep, viewed_by};
+use crate::process::{Approach, ColourSpaces, FilmProcess, InterImageChoice, Process};
 use crate::scene::SceneInput;
 use crate::word::Word as _;
 
@@ -32,18 +32,9 @@ pub struct Reference {
     mid_grey: PerLayer<LogExposure>,
     inter_image: InterImageEffect,
     camera: PerLayer<AmountCurve>,
-    print: Option<PrintStep>,
+    positive: Positive,
     projection: Projection,
     about: About,
-}
-
-/// What printing adds to the camera film.
-#[derive(Debug, Clone)]
-struct PrintStep {
-    duplication: LitDuplication,
-    lights: PrinterLights,
-    target: PerLayer<LogExposure>,
-    curves: PerLayer<AmountCurve>,
 }
 
 /// Every value on the way of one colour: where it comes from.
@@ -70,7 +61,10 @@ pub struct Stages {
     pub amounts: PerLayer<DyeAmount>,
     /// The print, if there is one.
     pub print: Option<PrintStage>,
-    /// The light from the screen; Y of the bare lamp is 1.
+    /// Densities that a scan reads, base included, if the negative is scanned.
+    pub scan: Option<PerLayer<Density>>,
+    /// The light from the screen; Y of the bare lamp is 1. Of a scan, the light through the negative on a light table: what is shown
+    /// follows from the densities.
     pub spectrum: SpectralDistribution<Power>,
     /// Tristimulus values of that light (CIE 1931); Y of the bare lamp is 1.
     pub xyz: [f64; 3],
@@ -99,7 +93,7 @@ pub struct PrintStage {
 
 impl Reference {
     fn new(process: &FilmProcess, films: &Films) -> Result<Self, Error> {
-        films.check_for(process.print.is_some())?;
+        films.check_for(process.print.is_some(), process.scan)?;
         process.check()?;
         check_silver(process, films)?;
         let film = &films.camera;
@@ -123,25 +117,27 @@ impl Reference {
         let projection =
             Projection::new(shown.dyes_on(SpectralShape::VISIBLE)?, viewed_by(process.projector, shown)?, &output)?;
         let projection = match process.white {
-            White::Lamp => projection,
-            White::Film => {
+            White::Film if process.scan.is_none() => {
                 let shown = print.as_ref().unwrap_or(&camera).as_ref();
                 projection.adapted_to(shown.map(|curve| *curve.amount_range().start()))
             }
+            White::Film | White::Lamp => projection,
         };
         let normal = match printing {
             Some(_) => own_grey,
+            None if process.scan.is_some() => own_grey,
             None => reversal_target(process.aim, density, film, own_grey, camera.as_ref(), &projection)?,
         };
         let over = process.overexposure * std::f64::consts::LOG10_2;
         let mid_grey = normal.map(|h| LogExposure(h.0 + over));
-        let print = match printing.zip(print) {
-            Some(((print, printing), curves)) => {
-                let grey = camera.as_ref().zip_map(mid_grey, AmountCurve::amount);
+        let grey = || camera.as_ref().zip_map(mid_grey, AmountCurve::amount);
+        let positive = match (printing.zip(print), process.scan) {
+            (Some(((print, printing), curves)), _) => {
                 let target = print_target(process.aim, density, print, curves.as_ref(), &projection)?;
-                Some(PrintStep::new(printing, film, print, grey, target, curves)?)
+                Positive::Print(PrintStep::new(printing, film, print, grey(), target, curves)?)
             }
-            None => None,
+            (None, Some(ScanRule::Cineon)) => Positive::Scan(ScanStep::new(film, grey(), density, &output)?),
+            (None, None) => Positive::Itself,
         };
         Ok(Self {
             scene: SceneInput::new(&process.spaces)?,
@@ -152,7 +148,7 @@ impl Reference {
             // Of normal exposure: more of it moves colours along the same densities.
             inter_image: InterImageEffect::new(film, process.inter_image.of(film), normal),
             camera,
-            print,
+            positive,
             projection,
             about: About::new(&films.named_in(&Process::Film(process.clone()))),
         })
@@ -183,26 +179,27 @@ impl Reference {
     /// Dye in the camera film to display-linear RGB: what is left to do once the camera film is developed.
     #[must_use]
     pub fn develop_amounts(&self, amounts: PerLayer<DyeAmount>) -> DisplayLinear {
-        self.projection.rgb(self.shown(amounts))
+        match &self.positive {
+            Positive::Itself => self.projection.rgb(amounts),
+            Positive::Print(print) => self.projection.rgb(print.amounts(print.duplication.expose(amounts))),
+            Positive::Scan(scan) => scan.rgb(amounts),
+        }
     }
 
-    /// Dye in the camera film to tristimulus values; Y of the bare lamp is 1, all three are above 0.
-    pub(crate) fn xyz_of_amounts(&self, amounts: PerLayer<DyeAmount>) -> [f64; 3] {
-        self.projection.xyz(self.shown(amounts))
-    }
-
-    /// Dye in the film on the screen, for dye in the camera film.
-    fn shown(&self, amounts: PerLayer<DyeAmount>) -> PerLayer<DyeAmount> {
-        match &self.print {
-            Some(print) => print.amounts(print.duplication.expose(amounts)),
-            None => amounts,
+    /// Dye in the camera film to light that [`Reference::rgb_from_light`] makes RGB of: tristimulus values above 0, Y of the bare lamp being
+    /// 1, or the channels of a scan.
+    pub(crate) fn light_of_amounts(&self, amounts: PerLayer<DyeAmount>) -> [f64; 3] {
+        match &self.positive {
+            Positive::Itself => self.projection.xyz(amounts),
+            Positive::Print(print) => self.projection.xyz(print.amounts(print.duplication.expose(amounts))),
+            Positive::Scan(scan) => *scan.scan.positive(amounts),
         }
     }
 
     /// Exposure of the print behind a camera film that holds these amounts of dye; `None` without a print.
     #[must_use]
     pub fn print_exposure(&self, amounts: PerLayer<DyeAmount>) -> Option<PerLayer<LogExposure>> {
-        self.print.as_ref().map(|print| print.duplication.expose(amounts))
+        self.print().map(|print| print.duplication.expose(amounts))
     }
 
     /// Whether a scene-linear colour has light outside the sRGB primaries, beyond what rounding makes of one on their edge: what
@@ -230,19 +227,23 @@ impl Reference {
         let exposure = self.exposure.expose(scene).map(LogExposure::of);
         let effective = self.inter_image.effective(exposure);
         let amounts = self.camera_amounts(exposure);
-        let print = self.print.as_ref().map(|print| {
+        let print = self.print().map(|print| {
             let exposure = print.duplication.expose(amounts);
             PrintStage { exposure, amounts: print.amounts(exposure) }
         });
         let shown = print.map_or(amounts, |print| print.amounts);
         let xyz = self.projection.xyz(shown);
-        let linear = self.projection.rgb_of(xyz);
+        let (scan, linear) = match &self.positive {
+            Positive::Scan(scan) => (Some(scan.scan.densities(amounts)), scan.rgb(amounts)),
+            Positive::Itself | Positive::Print(_) => (None, self.projection.rgb_of(xyz)),
+        };
         Stages {
             scene,
             exposure,
             effective,
             amounts,
             print,
+            scan,
             spectrum: self.projection.spectrum(shown),
             xyz,
             linear,
@@ -277,19 +278,19 @@ impl Reference {
     /// Amount of dye over exposure: the print's layers.
     #[must_use]
     pub fn print_curves(&self) -> Option<PerLayer<&AmountCurve>> {
-        self.print.as_ref().map(|print| print.curves.as_ref())
+        self.print().map(|print| print.curves.as_ref())
     }
 
     /// The lights of the printer: calibrated, and moved by the points.
     #[must_use]
     pub fn printer_lights(&self) -> Option<PrinterLights> {
-        self.print.as_ref().map(|print| print.lights)
+        self.print().map(|print| print.lights)
     }
 
     /// The exposure that a grey card must give the print.
     #[must_use]
     pub fn print_target(&self) -> Option<PerLayer<LogExposure>> {
-        self.print.as_ref().map(|print| print.target)
+        self.print().map(|print| print.target)
     }
 
     /// The colour difference between two results.
@@ -331,8 +332,41 @@ impl Reference {
         &self.projection
     }
 
-    pub(crate) fn duplication(&self) -> Option<&LitDuplication> {
-        self.print.as_ref().map(|print| &print.duplication)
+    pub(crate) fn positive(&self) -> &Positive {
+        &self.positive
+    }
+
+    fn print(&self) -> Option<&PrintStep> {
+        match &self.positive {
+            Positive::Print(print) => Some(print),
+            Positive::Itself | Positive::Scan(_) => None,
+        }
+    }
+
+    /// Curves over the light that the camera film lets through: the print's, or those of a scan.
+    pub(crate) fn curves_behind(&self) -> Option<PerLayer<&AmountCurve>> {
+        match &self.positive {
+            Positive::Itself => None,
+            Positive::Print(print) => Some(print.curves.as_ref()),
+            Positive::Scan(scan) => Some(scan.curves.as_ref()),
+        }
+    }
+
+    /// The same, by which a table's nodes are spread.
+    pub(crate) fn axis_curves(&self) -> Option<PerLayer<&AmountCurve>> {
+        match &self.positive {
+            Positive::Scan(scan) => Some(scan.codes.as_ref()),
+            Positive::Itself | Positive::Print(_) => self.curves_behind(),
+        }
+    }
+
+    /// Where those curves are read, for dye in the camera film.
+    pub(crate) fn exposure_behind(&self, amounts: PerLayer<DyeAmount>) -> Option<PerLayer<LogExposure>> {
+        match &self.positive {
+            Positive::Itself => None,
+            Positive::Print(print) => Some(print.duplication.expose(amounts)),
+            Positive::Scan(scan) => Some(scan.light(amounts)),
+        }
     }
 
     /// Scene light as the exposure matrix takes it: sRGB primaries, hard values cleaned.
@@ -349,66 +383,16 @@ impl Reference {
         self.scene.input_of_srgb(rgb)
     }
 
-    pub(crate) fn rgb_from_xyz(&self) -> &Matrix3<f64> {
-        self.projection.rgb_from_xyz()
+    /// Display-linear RGB of what [`Reference::light_of_amounts`] gives.
+    pub(crate) fn rgb_from_light(&self) -> &Matrix3<f64> {
+        match &self.positive {
+            Positive::Itself | Positive::Print(_) => self.projection.rgb_from_xyz(),
+            Positive::Scan(scan) => &scan.to_output,
+        }
     }
 
     pub(crate) fn camera_amounts(&self, exposure: PerLayer<LogExposure>) -> PerLayer<DyeAmount> {
         self.camera.as_ref().zip_map(self.inter_image.effective(exposure), AmountCurve::amount)
-    }
-}
-
-/// The light that a look's picture is seen by: paper is looked at in a viewing booth, and nothing projects it.
-pub(crate) fn viewed_by(projector: Projector, shown: &Stock) -> Result<Projector, Error> {
-    match projector {
-        Projector::Display if shown.kind().is_reflective() => Ok(Projector::ViewingBooth),
-        Projector::Theatre | Projector::TheatreUnadapted | Projector::Xenon if shown.kind().is_reflective() => {
-            let (id, kind, found) = (shown.id(), shown.kind().name(), projector.word());
-            let sentence = format!(
-                "{id} is a {kind} and is not projected, expected projector display or booth instead of {found}"
-            );
-            Err(ErrorKind::Contradiction(sentence).into())
-        }
-        Projector::Display
-        | Projector::Theatre
-        | Projector::TheatreUnadapted
-        | Projector::Xenon
-        | Projector::ViewingBooth => Ok(projector),
-    }
-}
-
-/// One layer cannot be filtered: what moves one of three layers means nothing to black and white.
-fn check_one_layer(printing: &Printing, print: &Stock) -> Result<(), Error> {
-    let [red, green, blue] = printing.points;
-    let expected = match printing.red_tail {
-        _ if print.image() == Image::Dye => return Ok(()),
-        _ if red != green || green != blue => format!("three equal points instead of {red}, {green}, {blue}"),
-        Tail::Held => "red_tail log-linear".to_owned(),
-        Tail::LogLinear => return Ok(()),
-    };
-    Err(ErrorKind::Contradiction(format!("{} is black and white and has one layer, expected {expected}", print.id()))
-        .into())
-}
-
-impl PrintStep {
-    /// The printer set so that dye `grey` of the negative gives the print the exposure `target`.
-    fn new(
-        printing: &Printing,
-        negative: &Stock,
-        print: &Stock,
-        grey: PerLayer<DyeAmount>,
-        target: PerLayer<LogExposure>,
-        curves: PerLayer<AmountCurve>,
-    ) -> Result<Self, Error> {
-        check_one_layer(printing, print)?;
-        let duplication = Duplication::new(negative, print, printing.printer())?;
-        let lights = duplication.calibrate_by(printing.calibration, grey, target)?;
-        let lights = lights.offset(PerLayer::from(printing.points));
-        Ok(Self { duplication: duplication.lit(lights), lights, target, curves })
-    }
-
-    fn amounts(&self, exposure: PerLayer<LogExposure>) -> PerLayer<DyeAmount> {
-        self.curves.as_ref().zip_map(exposure, AmountCurve::amount)
     }
 }
 

@@ -52,7 +52,7 @@ pub use error::Error;
 pub use filter::{HeatGlass, Wratten};
 pub use printer::{Filters, Infrared, POINT_LOG_EXPOSURE, Printer, PrinterLight, PrinterLights};
 pub use projection::{Projection, Projector, White};
-pub use scan::Scan;
+pub use scan::{Scan, ScanRule};
 pub use spectral_row::SpectralRow;
 
 /// The examples of README.md, compiled and run with the tests.

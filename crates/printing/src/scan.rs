@@ -1,9 +1,41 @@
-use onelight_film::{Densitometry, Density, DyeAmount, Dyes, Image, PerLayer, Stock, StockKind};
-use onelight_spectra::{DisplayLinear, SpectralShape};
+use onelight_film::{
+    AmountCurve, Densitometry, Density, Direction, DyeAmount, Dyes, Image, PerLayer, Stock, StockKind,
+};
+use onelight_spectra::{DisplayLinear, SpectralDistribution, SpectralShape};
 
 use crate::aim::EquivalentNeutralDensity;
 use crate::error::{Error, ErrorKind, expect_kind};
+use crate::spectral_row::SpectralRow;
 
+/// The rule by which densities of a scanned negative become light.
+///
+/// ```
+/// use onelight_printing::ScanRule;
+/// assert_eq!(ScanRule::default(), ScanRule::Cineon);
+/// assert!(ScanRule::Cineon.assumption().contains("gamma of 0.6"));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum ScanRule {
+    /// That of the Cineon system (\[Kennel1995\]), as [`Scan`] has it.
+    #[default]
+    Cineon,
+}
+
+impl ScanRule {
+    /// What the rule takes for granted, in a sentence without its end.
+    #[must_use]
+    pub fn assumption(self) -> &'static str {
+        match self {
+            Self::Cineon => {
+                "densities above the film's base are taken for the logarithm of light by the Cineon system's gamma of 0.6, and grey is balanced; \
+                 the curves that scanners and their programs add are not published"
+            }
+        }
+    }
+}
+
+/// The highest density above a film's base that a scan tells from higher ones.
+const DENSITY_MAX: f64 = 4.0;
 /// Gamma that a scanner takes negatives to have: the Cineon system's, for all camera films and all three layers
 /// (\[Kennel1995\]).
 const SCAN_GAMMA: f64 = 0.6;
@@ -14,8 +46,8 @@ const SCAN_GAMMA: f64 = 0.6;
 /// gamma of 0.6 for every film and layer, and the clear base for black,
 /// `light = (10^((D - D_base) / 0.6) - 1) / (10^((D_grey - D_base) / 0.6) - 1) * grey`.
 /// Densities are status M (\[ISO5-3\]), of black and white visual ones. Each channel is balanced so that a grey card is neutral at the
-/// density asked for; where the Cineon system has its white does not matter then. Channels are the display's own, as scanner programs take
-/// them; light above 1 is kept.
+/// density asked for; where the Cineon system has its white does not matter then. Channels are taken for the display's own, by sRGB
+/// primaries, as scanner programs do; light above 1 is kept, up to that of a density of 4 above the base.
 ///
 /// ```
 /// use onelight_film::{DyeModel, LogExposure, PerLayer, SheetText, Stock};
@@ -83,8 +115,39 @@ impl Scan {
     /// The picture of a negative that holds these amounts of dye: display-linear RGB, 0 for the clear base.
     #[must_use]
     pub fn positive(&self, amounts: PerLayer<DyeAmount>) -> DisplayLinear {
-        let above = self.densities(amounts).zip_map(self.base, |d, base| d.0 - base);
+        let above = self.densities(amounts).zip_map(self.base, |d, base| (d.0 - base).clamp(0.0, DENSITY_MAX));
         DisplayLinear(above.zip_map(self.gain, |d, gain| gain * (10f64.powf(d / SCAN_GAMMA) - 1.0)).to_array())
+    }
+
+    /// Wavelength by wavelength, by 1 nm: the sums are the light that the densitometer's channels read of the film, 1 without a film.
+    #[must_use]
+    pub fn rows(&self) -> Vec<SpectralRow> {
+        let [red, green, blue] = self.densitometry.responses().as_ref().map(SpectralDistribution::values).to_array();
+        let [c, m, y] = self.dyes.dyes().map(SpectralDistribution::values).to_array();
+        let row = |i: usize| SpectralRow {
+            dyes: [c[i], m[i], y[i]],
+            base: self.dyes.d_min().map_or(0.0, |d| d.values()[i]),
+            weights: [red[i], green[i], blue[i]],
+        };
+        (0..red.len()).map(row).collect()
+    }
+
+    /// Over log10 of that light, the density above the base divided by gamma: log10 of scene light, as far as the rule goes. Straight
+    /// lines, as the curves of a print would be that had no toe and no shoulder.
+    ///
+    /// # Errors
+    /// None for densities that are finite.
+    pub fn curves(&self) -> Result<PerLayer<AmountCurve>, Error> {
+        self.base.try_map(|base, _| {
+            let (from, to) = (-(base + DENSITY_MAX), -base);
+            Ok(AmountCurve::new(vec![from, to], &[DENSITY_MAX / SCAN_GAMMA, 0.0], Direction::Falling)?)
+        })
+    }
+
+    /// What light of 10^`curves` is multiplied by once 1 is taken off, so that a grey card is the grey asked for.
+    #[must_use]
+    pub fn gain(&self) -> PerLayer<f64> {
+        self.gain
     }
 }
 

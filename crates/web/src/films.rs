@@ -1,6 +1,6 @@
 //! The films, as the page lists them.
 
-use onelight::{Image, Stock, StockKind, stock, stock_ids, usual_print};
+use onelight::{Image, Stock, StockKind, seen_on, stock, stock_ids, usual_print};
 use serde::Serialize;
 
 use crate::error::Error;
@@ -45,7 +45,7 @@ pub struct Film {
     pub inter_image: Option<&'static str>,
     /// Development times and grades, to be put behind an `@`.
     pub variants: Vec<String>,
-    /// What it is printed on, in the order of the list.
+    /// What it is seen on, as the key `print` names it: films and papers in the order of the list, and `scan` for a negative.
     pub prints: Vec<String>,
     /// The print of a negative that names none.
     pub usual_print: Option<&'static str>,
@@ -62,7 +62,6 @@ pub fn films() -> Result<Vec<Film>, Error> {
 
 fn described(film: &Stock, all: &[Stock]) -> Film {
     let kind = film.kind();
-    let printed = |print: &&Stock| film.is_printed_on(print);
     Film {
         id: film.id().to_owned(),
         name: film.name().to_owned(),
@@ -79,7 +78,7 @@ fn described(film: &Stock, all: &[Stock]) -> Film {
         derived: film.derived(),
         inter_image: film.inter_image().map(|(_, origin)| origin.word()),
         variants: film.variants().map(str::to_owned).collect(),
-        prints: all.iter().filter(printed).map(|print| print.id().to_owned()).collect(),
+        prints: seen_on(film, all).into_iter().map(str::to_owned).collect(),
         usual_print: (kind == StockKind::Negative).then(|| usual_print(film.image())),
     }
 }

@@ -85,14 +85,19 @@ impl Keys {
         let mut keys = self.0.clone();
         let usual = ProcessKeys::default();
         let camera = stock(&keys.camera)?;
-        let print = keys.print.as_deref().map(stock).transpose()?;
+        let is_scan = keys.print.as_deref() == Some("scan") && camera.kind() == StockKind::Negative;
+        let print = keys.print.as_deref().filter(|print| *print != "scan").map(stock).transpose()?;
         let fits =
             |print: &onelight::Stock| camera.kind().printed_on().contains(&print.kind()) && camera.is_printed_on(print);
         let print = match print.filter(fits) {
+            None if is_scan => None,
             None if camera.kind() == StockKind::Negative => Some(stock(usual_print(camera.image()))?),
             kept => kept,
         };
-        keys.print = print.as_ref().map(|print| print.id().to_owned());
+        keys.print = print.as_ref().map(onelight::Stock::id).or(is_scan.then_some("scan")).map(str::to_owned);
+        if is_scan {
+            (keys.aim, keys.projector, keys.white) = (usual.aim, usual.projector, usual.white);
+        }
         if print.is_none() {
             (keys.print_curves, keys.light, keys.filters) = (usual.print_curves, usual.light, usual.filters);
             (keys.beam_density, keys.calibration, keys.points) = (usual.beam_density, usual.calibration, usual.points);

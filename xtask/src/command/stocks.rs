@@ -196,6 +196,7 @@ fn one(id: &str, out: Option<&Path>) -> Result<(String, Value)> {
     line("kind, process", format!("{}, {}, {}", kind(&stock), stock.process(), stock.balance()));
     line("exposure index", stock.exposure_index().map_or_else(|| "none".to_owned(), |ei| ei.to_string()));
     line("sheet", format!("{} ({})", stock.sheet(), stock.year()));
+    line("formats", names(&stock).map_or_else(|| "not known".to_owned(), |names| names.join(", ")));
     line("inter-image, near/far", inter_image(&stock));
     line("derived", derived(&stock));
     let variants: Vec<&str> = stock.variants().collect();
@@ -239,6 +240,12 @@ fn check() -> Result<(String, Value)> {
     Ok((format!("{stocks} stocks read, {count} processes compiled\n"), json!({ "stocks": stocks, "processes": count })))
 }
 
+/// The sizes that a stock is sold in, where they are known.
+fn names(stock: &Stock) -> Option<Vec<&'static str>> {
+    let names: Vec<_> = stock.formats().iter().map(|size| size.name()).collect();
+    (!names.is_empty()).then_some(names)
+}
+
 fn as_json(stock: &Stock) -> Value {
     let (first, last) = sensitive_nm(stock);
     let (low, high) = exposures(stock);
@@ -254,6 +261,7 @@ fn as_json(stock: &Stock) -> Value {
         "balance": stock.balance(),
         "sheet": stock.sheet(),
         "year": stock.year(),
+        "formats": names(stock),
         "sensitivity_nm": [first, last],
         "log10_exposure": [low, high],
         "axis": axis(stock),

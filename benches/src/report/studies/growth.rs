@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
+use onelight::Nodes;
 use onelight::lut::{Channels, Interpolation, Lut3d, PixelsMut, Storage};
-use onelight::{DirectSettings, Nodes};
 use serde::Serialize;
 
 use super::effects::{EffectRow, effects};
@@ -73,7 +73,7 @@ fn usual(made: &[Made]) -> Vec<&Made> {
         let all = made.iter().filter(move |m| m.kind == kind && m.storage == Some(Storage::F32));
         all.filter(|m| m.size.is_some_and(|size| size <= 33)).max_by_key(|m| m.size)
     };
-    let usual = match DirectSettings::default().nodes {
+    let usual = match Nodes::USUAL_COUNTS {
         Nodes::Counts { projection, .. } => projection,
         _ => 0,
     };

@@ -6,6 +6,49 @@ use crate::curve::Direction;
 use crate::layer::PerLayer;
 use crate::quantity::Density;
 
+/// A size that a film is sold in: one of the `formats` of a data sheet.
+///
+/// ```
+/// use onelight_film::FilmSize;
+/// assert_eq!(FilmSize::Motion16.name(), "16 mm");
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
+pub enum FilmSize {
+    /// Motion-picture film of 35 mm and wider.
+    #[serde(rename = "35 mm")]
+    Motion35,
+    /// Motion-picture film of 16 mm.
+    #[serde(rename = "16 mm")]
+    Motion16,
+    /// Cartridges of perforated film, for frames of 24 x 36 mm.
+    #[serde(rename = "135")]
+    Cartridge135,
+    /// Rolls for frames 6 cm wide.
+    #[serde(rename = "120")]
+    Roll120,
+    /// Sheets, of 4 x 5 inch and more.
+    #[serde(rename = "sheet")]
+    Sheet,
+    /// Packs of instant film.
+    #[serde(rename = "pack")]
+    Pack,
+}
+
+impl FilmSize {
+    /// The word of a data sheet for it, such as `16 mm`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Motion35 => "35 mm",
+            Self::Motion16 => "16 mm",
+            Self::Cartridge135 => "135",
+            Self::Roll120 => "120",
+            Self::Sheet => "sheet",
+            Self::Pack => "pack",
+        }
+    }
+}
+
 /// What a film is for: the `kind` of a data sheet.
 ///
 /// ```

@@ -8,7 +8,7 @@ mod sheet;
 
 use onelight_spectra::SpectralShape;
 
-pub use facts::{AimDensities, ExposureAxis, Image, MidGrey, Normalisation, Origin, StockKind, Uncertainty};
+pub use facts::{AimDensities, ExposureAxis, FilmSize, Image, MidGrey, Normalisation, Origin, StockKind, Uncertainty};
 pub use reread::Figures;
 
 use crate::curve::CharacteristicCurve;
@@ -234,6 +234,21 @@ impl Stock {
     #[must_use]
     pub fn process(&self) -> &str {
         &self.sheet.process
+    }
+
+    /// The sizes that it is sold in, as its sheet or its numbers name them; empty where neither is known to.
+    ///
+    /// ```
+    /// use onelight_film::{FilmSize, SheetText, Stock};
+    /// # let f = onelight_stocks::find("kodak-5207").ok_or("no such stock")?;
+    /// # let vision = Stock::parse(&SheetText { id: f.id, stock_toml: f.stock_toml, sensitivity_csv: f.sensitivity_csv,
+    /// #     characteristic_csv: f.characteristic_csv, dye_density_csv: f.dye_density_csv })?;
+    /// assert_eq!(vision.formats(), [FilmSize::Motion35, FilmSize::Motion16]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn formats(&self) -> &[FilmSize] {
+        &self.sheet.formats
     }
 
     /// Year of the sheet or of the film's introduction.

@@ -6,7 +6,7 @@ use crate::error::{Error, ErrorKind};
 use crate::inter_image::{InterImage, InterImageOrigin};
 use crate::printable::printable;
 
-use super::facts::{ExposureAxis, Image, MidGrey, Normalisation, Origin, StockKind, Uncertainty};
+use super::facts::{ExposureAxis, FilmSize, Image, MidGrey, Normalisation, Origin, StockKind, Uncertainty};
 use crate::curve::Direction;
 use crate::densitometry::Densitometry;
 
@@ -31,6 +31,8 @@ pub(super) struct Sheet {
     pub(super) exposure_index: Option<f64>,
     pub(super) balance: String,
     pub(super) process: String,
+    #[serde(default)]
+    pub(super) formats: Vec<FilmSize>,
     pub(super) year: u16,
     pub(super) sheet: String,
     pub(super) sensitivity: SensitivitySection,

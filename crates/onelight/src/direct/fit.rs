@@ -37,6 +37,9 @@ const LEAST_GAIN: f64 = 1e-4;
 /// Levenberg and Marquardt's method (\[Marquardt1963\]) on the p-norm of the misses, with the power p raised in steps: few
 /// large misses count for more and more.
 pub(super) fn fit(full: &Sum, samples: &[Sample], count: usize) -> Sum {
+    if full.is_rule() {
+        return full.clone();
+    }
     let some: Vec<Sample> = samples.iter().copied().step_by(CHOICE_EVERY).collect();
     let starts = STARTS.par_iter().map(|&exponent| descend(shared_out(full, count, exponent), &some, &[BROAD]));
     let starts: Vec<(f64, Sum)> = starts.map(|sum| (norm(&misses(&sum, samples), CHOICE), sum)).collect();

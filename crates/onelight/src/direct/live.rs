@@ -88,7 +88,7 @@ impl LiveDirect {
         let film = process.compile_with(&films)?;
         let full = Stages::of(&film);
         let moved = match self.settings.nodes {
-            Nodes::Counts { .. } => self.fitted.moved_to(&film, &full)?,
+            Nodes::Usual | Nodes::Counts { .. } => self.fitted.moved_to(&film, &full)?,
             // Ready at once, or to be searched for.
             Nodes::Grid { .. } | Nodes::GridUnderMaxDe(_) | Nodes::UnderMaxDe(_) => None,
         };

@@ -40,6 +40,10 @@ impl Reference {
         match settings.nodes {
             Nodes::Grid { step_nm } => full.on_grid(step_nm),
             Nodes::GridUnderMaxDe(limit) => grid_under(self, full, limit),
+            Nodes::Usual => {
+                let (training, judges) = rayon::join(|| Training::new(self), || Training::judges(self));
+                Ok(full.usual(&training?, &judges?))
+            }
             Nodes::Counts { projection, duplication } => {
                 check_count("projection", projection)?;
                 if full.duplication.is_some() {

@@ -1,3 +1,5 @@
+use std::ops::RangeInclusive;
+
 use crate::error::{Error, ErrorKind};
 
 /// Where the exponentials of a direct form come from.
@@ -20,6 +22,10 @@ pub enum Nodes {
     /// The coarsest of the grids by 10, 5, 2 and 1 nm with which none of a few hundred colours differs from the film by more than
     /// this (CIEDE2000), or that by 1 nm: what tables are baked with.
     GridUnderMaxDe(f64),
+    /// Ten exponentials from the dye on the screen to linear RGB and five from a negative to its print, fitted as those of [`Nodes::Counts`];
+    /// where they would miss one of five thousand other colours by more than 0.1 (CIEDE2000), as steep papers show it, more of them, up to
+    /// twelve and eight. For a scan ten to twelve from the negative and the four of its rule. A card's shader has room for as many without more time; a processor takes a fifteenth more time for each.
+    Usual,
     /// So many exponentials, fitted to the film over all that light can reach: a tenth of a second. Rates and weights are free;
     /// they belong to no wavelength, and weights may be negative.
     Counts {
@@ -36,6 +42,13 @@ pub enum Nodes {
 impl Nodes {
     /// The most exponentials that are fitted in one stage.
     pub const MAX_COUNT: usize = 16;
+    /// What [`Nodes::Usual`] begins with for film and paper, and ends with for most.
+    pub const USUAL_COUNTS: Self = Self::Counts { projection: 10, duplication: 5 };
+    /// Exponentials of each stage that [`Nodes::Usual`] begins and ends with.
+    pub(super) const USUAL_PROJECTION: RangeInclusive<usize> = 10..=12;
+    pub(super) const USUAL_DUPLICATION: RangeInclusive<usize> = 5..=8;
+    /// Those from a negative to what a scan reads, which has no curve that forgives a miss: the rule needs but four behind them.
+    pub(super) const USUAL_SCAN: RangeInclusive<usize> = 10..=12;
 }
 
 /// How [`Reference::direct`](crate::Reference::direct) makes its form.
@@ -57,7 +70,7 @@ impl Default for DirectSettings {
     /// What stays below 0.13 dE for the films of the README and light within the sRGB primaries (5207 on 2383: 6 + 3 stay below 0.6,
     /// 8 + 4 below 0.23; Velvia 50: 6 + 3 below 0.4, 8 + 4 below 0.05).
     fn default() -> Self {
-        Self { nodes: Nodes::Counts { projection: 10, duplication: 5 } }
+        Self { nodes: Nodes::Usual }
     }
 }
 

@@ -1,10 +1,12 @@
-use nalgebra::Matrix3;
+use std::ops::RangeInclusive;
+
 use onelight_film::LogExposure;
 use onelight_lut::{DirectForm, DirectParts, DirectPrint};
 
-use super::fit::fit;
+use super::fit::{fit, misses};
+use super::settings::Nodes;
 use super::sum::Sum;
-use super::training::Training;
+use super::training::{Sample, Training};
 use crate::error::Error;
 use crate::reference::Reference;
 use crate::structured::{coding, over_log2};
@@ -21,10 +23,7 @@ pub(super) struct Stages {
 impl Stages {
     /// The film itself, by 1 nm.
     pub(super) fn of(film: &Reference) -> Self {
-        Self {
-            duplication: film.duplication().map(|stage| Sum::of(stage.rows(), &Matrix3::identity())),
-            projection: Sum::of(film.projection().rows(), film.rgb_from_xyz()),
-        }
+        Self { duplication: Sum::behind(film), projection: Sum::shown(film) }
     }
 
     pub(super) fn on_grid(&self, step_nm: usize) -> Result<Self, Error> {
@@ -40,12 +39,39 @@ impl Stages {
         let (duplication, projection) = rayon::join(first, || fit(&self.projection, &training.projection, projection));
         Self { duplication, projection }
     }
+
+    /// Each stage by the fewest terms of the usual that come near enough to colours which it was not fitted to, or by the most of them.
+    pub(super) fn usual(&self, training: &Training, judges: &Training) -> Self {
+        let first = || {
+            let (full, samples) = self.duplication.as_ref().zip(training.duplication.as_deref())?;
+            let judges = judges.duplication.as_deref().unwrap_or_default();
+            let counts = if self.projection.is_rule() { Nodes::USUAL_SCAN } else { Nodes::USUAL_DUPLICATION };
+            Some(near(full, samples, judges, counts))
+        };
+        let last = || near(&self.projection, &training.projection, &judges.projection, Nodes::USUAL_PROJECTION);
+        let (duplication, projection) = rayon::join(first, last);
+        Self { duplication, projection }
+    }
+}
+
+/// The difference (CIEDE2000) by which a sum may miss a colour before another term is added.
+const LARGEST_MISS: f64 = 0.1;
+
+fn near(full: &Sum, samples: &[Sample], judges: &[Sample], counts: RangeInclusive<usize>) -> Sum {
+    let mut sum = fit(full, samples, *counts.start());
+    for count in counts.skip(1) {
+        if misses(&sum, judges).into_iter().all(|miss| miss <= LARGEST_MISS) {
+            break;
+        }
+        sum = fit(full, samples, count);
+    }
+    sum
 }
 
 impl Reference {
     /// These sums among the film's own matrix and curves.
     pub(super) fn direct_of(&self, stages: &Stages) -> Result<DirectForm, Error> {
-        let print = match (&stages.duplication, self.print_curves()) {
+        let print = match (&stages.duplication, self.curves_behind()) {
             (Some(sum), Some(curves)) => {
                 let layers = curves.to_array();
                 let curves = over_log2(curves, |layer, h| layers[layer].amount(LogExposure(h)).0)?;

@@ -5,10 +5,14 @@ use onelight_lut::{ExponentialSum, ExponentialTerm};
 use onelight_printing::SpectralRow;
 
 use crate::error::{Error, ErrorKind};
+use crate::positive::Positive;
+use crate::reference::Reference;
 
 /// A wavelength of a grid that adds less than this part to each sum is left out. 10^-6 would cost 0.008 dE by 1 nm: what is dark
 /// elsewhere is seen through such wavelengths.
 const LEAST_PART: f64 = 1e-9;
+/// Terms of a scan's rule: a channel each, and black.
+const RULE_TERMS: usize = 4;
 
 /// An [`ExponentialSum`] before it is rounded: `sum of weight 2^-(rate . x)`.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +41,32 @@ impl Sum {
         Self(rows.iter().map(term).collect())
     }
 
+    /// From dye in the camera film to the exposure of its print, or the light that a scan reads; none where it is shown itself.
+    pub(super) fn behind(film: &Reference) -> Option<Self> {
+        let rows = match film.positive() {
+            Positive::Itself => return None,
+            Positive::Print(print) => print.duplication.rows(),
+            Positive::Scan(scan) => &scan.rows,
+        };
+        Some(Self::of(rows, &Matrix3::identity()))
+    }
+
+    /// From the last film's dye to linear RGB; of a scan its rule, which takes no more than a term for each channel and one for black.
+    pub(super) fn shown(film: &Reference) -> Self {
+        let Positive::Scan(scan) = film.positive() else {
+            return Self::of(film.projection().rows(), film.rgb_from_light());
+        };
+        let gain = Vector3::from(scan.scan.gain().to_array());
+        let channel = |c: usize| Term { rate: Vector3::ith(c, -LOG2_10), weight: scan.to_output.column(c) * gain[c] };
+        let black = Term { rate: Vector3::zeros(), weight: -(scan.to_output * gain) };
+        Self((0..3).map(channel).chain([black]).collect())
+    }
+
+    /// Whether it is a rule of no more terms than colours and black have, which is no sum over wavelengths and needs no fit.
+    pub(super) fn is_rule(&self) -> bool {
+        self.0.len() <= RULE_TERMS
+    }
+
     /// This sum by 1 nm as one over every `step_nm`-th wavelength.
     ///
     /// Only the light that the dyes let pass is read by the coarse grid, as a cubic through four neighbours; lamp, filters,
@@ -44,6 +74,9 @@ impl Sum {
     /// trapezoidal rule, costs up to 0.4 dE at 5 nm, as it misses edges of the printer's filters.) Wavelengths that add next to
     /// nothing are left out: a quarter of them behind a negative.
     pub(super) fn on_grid(&self, step_nm: usize) -> Result<Self, Error> {
+        if self.is_rule() {
+            return Ok(self.clone());
+        }
         let last = self.0.len().saturating_sub(1);
         if step_nm == 0 || !last.is_multiple_of(step_nm) || last / step_nm < 3 {
             let expected =

@@ -34,6 +34,8 @@ pub(super) struct Training {
 const STOPS: (f64, f64) = (-10.0, 14.0);
 /// Colours that each stage is fitted to.
 const COUNT: usize = 1024;
+/// Colours that a fit is judged by.
+const JUDGES: usize = 4096;
 /// One more for so many of these is drawn from Rec.2020: light outside the sRGB primaries leaves layers so little exposure that
 /// their dyes come in amounts of which no light inside makes any.
 const WIDE_SHARE: usize = 4;
@@ -48,17 +50,25 @@ impl Training {
         Self::of(film, COUNT)
     }
 
+    /// More colours, none of which is fitted to: what a fit misses of them says how far it lies from the film.
+    pub(super) fn judges(film: &Reference) -> Result<Self, Error> {
+        Self::drawn(film, JUDGES, SEED + 2)
+    }
+
     pub(super) fn of(film: &Reference, count: usize) -> Result<Self, Error> {
-        let mut drawn = edged(SEED, count)?;
+        Self::drawn(film, count, SEED)
+    }
+
+    fn drawn(film: &Reference, count: usize, seed: u64) -> Result<Self, Error> {
+        let mut drawn = edged(seed, count)?;
         if film.exposure_matrix().gamut() == WideGamut::Compress {
             let white = Chromaticity::black_body_6500_k();
             let to_srgb = WorkingSpace::Rec2020.space().to_about(&WorkingSpace::Srgb.space(), white)?;
-            drawn.extend(edged(SEED + 1, count / WIDE_SHARE)?.into_iter().map(|rgb| multiply(&to_srgb, rgb)));
+            drawn.extend(edged(seed + 1, count / WIDE_SHARE)?.into_iter().map(|rgb| multiply(&to_srgb, rgb)));
         }
         let difference = film.difference()?;
-        let projection = Sum::of(film.projection().rows(), film.rgb_from_xyz());
-        let print = film.duplication().zip(film.print_curves());
-        let duplication = print.map(|(stage, curves)| (Sum::of(stage.rows(), &Matrix3::identity()), curves));
+        let projection = Sum::shown(film);
+        let duplication = Sum::behind(film).zip(film.curves_behind());
         let samples: Vec<(Option<Sample>, Sample)> = drawn
             .into_par_iter()
             .map(|rgb| {

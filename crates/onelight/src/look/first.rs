@@ -37,7 +37,7 @@ const WAVELENGTHS_NM: [f64; 3] = [612.0, 549.0, 464.0];
 
 impl FirstApproach {
     pub(crate) fn new(process: &FirstProcess, films: &Films) -> Result<Self, Error> {
-        films.check_for(process.print.is_some())?;
+        films.check_for(process.print.is_some(), None)?;
         process.check()?;
         let density = process.neutral_density;
         let layers = PerLayer::from(LAYER_NAMES);

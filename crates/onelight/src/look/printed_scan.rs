@@ -8,8 +8,8 @@ use crate::about::About;
 use crate::cineon::{self, GREY_CODE, LAST_CODE};
 use crate::error::{Error, ErrorKind};
 use crate::films::built_in;
+use crate::positive::viewed_by;
 use crate::process::{PrintAlone, Process};
-use crate::reference::viewed_by;
 
 /// A print of Cineon codes at work: the exact one, in float64 at 1 nm.
 ///

@@ -1,7 +1,7 @@
 use onelight_film::{DyeModel, InterImage, Matching, PerLayer, PrintCurves, Stock, Tail, WideGamut};
 use onelight_printing::{
     Aim, Calibration, EquivalentNeutralDensity, Filters, HeatGlass, Infrared, NEUTRAL_DENSITY, Printer, PrinterLight,
-    Projector, White, Wratten,
+    Projector, ScanRule, White, Wratten,
 };
 use onelight_spectra::Reconstruction;
 
@@ -28,8 +28,10 @@ use crate::word::Word as _;
 pub struct FilmProcess {
     /// The film in the camera: a negative or a reversal film.
     pub camera: StockRef,
-    /// How a negative is printed; `None` for reversal film, which is shown as it is.
+    /// How a negative is printed; `None` for reversal film, which is shown as it is, and where the negative is scanned.
     pub print: Option<Printing>,
+    /// The rule by which a negative that is not printed is scanned and inverted.
+    pub scan: Option<ScanRule>,
     /// What an 18 % grey card becomes.
     pub aim: Aim,
     /// Equivalent neutral density of a grey card in neutral aim, 0.05 to 3. 0.3 more is a stop darker.
@@ -132,6 +134,7 @@ impl Default for FilmProcess {
         Self {
             camera: DEFAULT_CAMERA.into(),
             print: Some(Printing::default()),
+            scan: None,
             aim: Aim::default(),
             neutral_density: NEUTRAL_DENSITY,
             overexposure: 0.0,
@@ -157,6 +160,25 @@ impl FilmProcess {
         Ok(Self { camera: camera.into(), print: default_print(camera)?.map(Printing::on), ..Self::default() })
     }
 
+    /// A built-in negative that is scanned instead of printed: densities above its base, status M or visual, are taken for the logarithm
+    /// of light by the Cineon system's rule ([`onelight_printing::Scan`]), and a grey card is balanced. What scanners and their programs
+    /// add to it, such as curves of their own, is not published.
+    ///
+    /// ```
+    /// use onelight::FilmProcess;
+    /// let scan = FilmProcess::scanned("kodak-portra-400").compile()?;
+    /// let [dark, grey, bright] = [0.09, 0.18, 0.36].map(|v| scan.develop_linear([v; 3])[1]);
+    /// assert!((grey - 10f64.powf(-0.7)).abs() < 1e-9);
+    /// // The scene's own contrast, which a print raises.
+    /// assert!((bright / dark).log2() < 2.3);
+    /// assert!(FilmProcess::scanned("fuji-velvia-50").compile().is_err());
+    /// # Ok::<(), onelight::Error>(())
+    /// ```
+    #[must_use]
+    pub fn scanned(camera: &str) -> Self {
+        Self { camera: camera.into(), print: None, scan: Some(ScanRule::default()), ..Self::default() }
+    }
+
     /// The same process as the talk has it, film by its sheet alone: layers that do not inhibit each other, the bare lamp for white,
     /// light outside the sRGB primaries clipped (\[Gotanda2010\]). The preset `talk` of the command line.
     ///
@@ -171,7 +193,9 @@ impl FilmProcess {
     #[must_use]
     pub fn as_in_the_talk(self) -> Self {
         let inter_image = InterImageChoice::Fixed(InterImage::NONE);
-        Self { inter_image, white: White::Lamp, gamut: WideGamut::Clip, ..self }
+        // A scan has no film on the screen, and no white but the display's.
+        let white = if self.scan.is_some() { self.white } else { White::Lamp };
+        Self { inter_image, white, gamut: WideGamut::Clip, ..self }
     }
 
     /// Whether the numbers are within their ranges, and every setting changes something.
@@ -196,7 +220,27 @@ impl FilmProcess {
             )
             .into());
         }
+        self.check_scan()?;
         self.print.as_ref().map_or(Ok(()), Printing::check)
+    }
+
+    /// Refuses what a scan has nothing for.
+    fn check_scan(&self) -> Result<(), Error> {
+        let sentence = match self.scan {
+            None => return Ok(()),
+            _ if self.print.is_some() => "a scan is no print: the process has both, expected one of them",
+            _ if self.aim == Aim::Sheet => {
+                "a scan has no sheet that states an aim, expected aim neutral instead of sheet"
+            }
+            _ if self.projector != Projector::default() => {
+                "a scan is not projected: projector changes nothing, expected it left out"
+            }
+            _ if self.white != White::default() => {
+                "a scan has no film on the screen: white changes nothing, expected it left out"
+            }
+            Some(ScanRule::Cineon) => return Ok(()),
+        };
+        Err(ErrorKind::Contradiction(sentence.to_owned()).into())
     }
 }
 

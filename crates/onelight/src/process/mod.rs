@@ -19,7 +19,7 @@ pub use first::{FirstControls, FirstProcess};
 pub use print_alone::PrintAlone;
 pub use spaces::ColourSpaces;
 pub use stock_ref::{DEFAULT_CAMERA, DEFAULT_PRINT, DEFAULT_SILVER_PRINT, OwnSheet, StockRef, usual_print};
-pub(crate) use stock_ref::{NO_CAMERA, default_print};
+pub(crate) use stock_ref::{NO_CAMERA, SCAN, default_print};
 pub use tone::{ToneMapping, ToneProcess};
 
 use crate::error::Error;
@@ -86,12 +86,13 @@ impl Process {
         FilmProcess::for_camera(camera).map(Self::Film)
     }
 
-    /// A short name made of the ids: `kodak-5207_kodak-2383`, `fuji-velvia-50`, `kodak-5207_kodak-2383_first`, `cineon_kodak-2383`,
+    /// A short name made of the ids: `kodak-5207_kodak-2383`, `kodak-5207_scan`, `fuji-velvia-50`, `kodak-5207_kodak-2383_first`, `cineon_kodak-2383`,
     /// `reinhard`.
     #[must_use]
     pub fn name(&self) -> String {
         let films = |camera: &StockRef| match self.print() {
             Some(print) => format!("{camera}_{print}"),
+            None if self.is_scanned() => format!("{camera}_{SCAN}"),
             None => camera.to_string(),
         };
         match self {
@@ -120,6 +121,12 @@ impl Process {
             Self::First(first) => Some(&first.camera),
             Self::Print(_) | Self::Tone(_) => None,
         }
+    }
+
+    /// Whether the negative is scanned and inverted, not printed.
+    #[must_use]
+    pub fn is_scanned(&self) -> bool {
+        matches!(self, Self::Film(film) if film.scan.is_some())
     }
 
     /// The film that a negative is printed on.

@@ -134,6 +134,9 @@ impl fmt::Display for StockRef {
 /// The key `camera` where no film is in the camera and codes of a scanned negative are printed.
 pub(crate) const NO_CAMERA: &str = "none";
 
+/// The key `print` where a negative is scanned and not printed.
+pub(crate) const SCAN: &str = "scan";
+
 /// The print film of a negative that names none.
 #[must_use]
 pub fn usual_print(image: Image) -> &'static str {

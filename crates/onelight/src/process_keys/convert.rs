@@ -1,13 +1,14 @@
 //! From keys to one kind of process, and back.
 
+use onelight_printing::ScanRule;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
 use super::keys::ProcessKeys;
 use crate::error::{Error, ErrorKind};
 use crate::films::{Films, built_in};
 use crate::process::{
-    Approach, ColourSpaces, Effects, FilmProcess, FirstControls, FirstProcess, NO_CAMERA, OwnSheet, PrintAlone,
-    Printing, Process, StockRef, ToneMapping, ToneProcess, check_exposure, check_lights,
+    Approach, ColourSpaces, DEFAULT_PRINT, Effects, FilmProcess, FirstControls, FirstProcess, NO_CAMERA, OwnSheet,
+    PrintAlone, Printing, Process, SCAN, StockRef, ToneMapping, ToneProcess, check_exposure, check_lights,
 };
 use crate::word::Word as _;
 
@@ -22,7 +23,7 @@ impl ProcessKeys {
         match &process {
             Process::Film(_) | Process::First(_) => {
                 let (camera, print) = self.stocks()?;
-                Films::built_in(&camera, print.as_ref())?;
+                Films::built_in(&camera, print.as_ref(), self.scan())?;
             }
             Process::Print(print) => {
                 built_in(&print.film)?;
@@ -48,7 +49,7 @@ impl ProcessKeys {
             }
             Process::Film(_) | Process::First(_) => {}
         }
-        films.check()?;
+        films.check(self.scan())?;
         self.check()?;
         Ok(films.named_in(&process))
     }
@@ -94,6 +95,7 @@ impl ProcessKeys {
         Ok(FilmProcess {
             camera,
             print,
+            scan: self.scan(),
             aim: self.aim,
             neutral_density: self.neutral_density,
             overexposure: self.overexposure,
@@ -114,6 +116,11 @@ impl ProcessKeys {
         if self.camera_sheet.is_some() || self.camera_sha256.is_some() {
             return refuse("camera is none: camera_sheet and camera_sha256 change nothing, expected them left out");
         }
+        if self.scan().is_some() {
+            return refuse(
+                "print is scan and camera none: codes of a scan are printed, expected a print film, such as kodak-2383",
+            );
+        }
         let Some(print) = &self.print else {
             return refuse(
                 "camera and print are none, expected a print film, such as kodak-2383, behind codes of a scan",
@@ -130,6 +137,11 @@ impl ProcessKeys {
             white: self.white,
             spaces,
         })
+    }
+
+    /// The rule of a scan, where the key `print` asks for one.
+    fn scan(&self) -> Option<ScanRule> {
+        self.print.as_deref().filter(|print| *print == SCAN).map(|_| ScanRule::default())
     }
 
     fn effects(&self) -> Effects {
@@ -153,12 +165,16 @@ impl ProcessKeys {
         }
         let camera = stock_ref("camera", &self.camera, self.camera_sheet.as_deref(), self.camera_sha256.as_deref())?;
         let (path, sha256) = (self.print_sheet.as_deref(), self.print_sha256.as_deref());
-        match &self.print {
+        let refuse = |sentence: String| Err(ErrorKind::Contradiction(sentence).into());
+        match self.print.as_deref().filter(|_| self.scan().is_none()) {
             Some(print) => Ok((camera, Some(stock_ref("print", print, path, sha256)?))),
             None if path.or(sha256).is_some() => {
-                let sentence = "print is none: print_sheet and print_sha256 change nothing, expected them left out";
-                Err(ErrorKind::Contradiction(sentence.to_owned()).into())
+                let print = self.print.as_deref().unwrap_or("none");
+                refuse(format!("print is {print}: print_sheet and print_sha256 change nothing, expected them left out"))
             }
+            None if self.scan().is_some() && self.approach == Approach::First => refuse(format!(
+                "print is scan, which approach first does not have, expected a print film, such as {DEFAULT_PRINT}, or approach second"
+            )),
             None => Ok((camera, None)),
         }
     }
@@ -239,6 +255,12 @@ impl ProcessKeys {
                     film.into_iter().chain(printer).filter(|(key, _)| !of_print.contains(key)).chain(first).collect();
                 (idle, "camera is none and the negative is a scan".to_owned())
             }
+            Approach::Second if self.scan().is_some() => {
+                let of_light = ["projector", "white"];
+                let idle =
+                    film.into_iter().filter(|(key, _)| of_light.contains(key)).chain(printer).chain(first).collect();
+                (idle, "print is scan and nothing is printed or projected".to_owned())
+            }
             Approach::Second if self.print.is_none() => {
                 let idle = printer.into_iter().chain(first).collect();
                 (idle, format!("{} is a reversal film and is not printed", self.camera))
@@ -299,7 +321,10 @@ impl From<&Process> for ProcessKeys {
         if let Some(camera) = process.camera() {
             camera.id().clone_into(&mut keys.camera);
             (keys.camera_sheet, keys.camera_sha256) = sheet_of(camera);
-            keys.print = process.print().map(|print| print.id().to_owned());
+            keys.print = match process.print() {
+                None if process.is_scanned() => Some(SCAN.to_owned()),
+                print => print.map(|print| print.id().to_owned()),
+            };
             (keys.print_sheet, keys.print_sha256) = process.print().map_or((None, None), sheet_of);
         }
         match process {

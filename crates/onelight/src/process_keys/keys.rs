@@ -12,7 +12,7 @@ use super::word_lists::{
 };
 use crate::error::Error;
 use crate::process::{
-    Approach, DEFAULT_CAMERA, DEFAULT_PRINT, EffectChoice, Effects, FilmProcess, FirstControls, InterImageChoice,
+    Approach, DEFAULT_CAMERA, DEFAULT_PRINT, EffectChoice, Effects, FilmProcess, FirstControls, InterImageChoice, SCAN,
 };
 use crate::word::{self, WorkingSpace};
 
@@ -49,7 +49,8 @@ pub struct ProcessKeys {
     /// SHA-256 of that sheet, as [`OwnSheet::sha256`](crate::OwnSheet::sha256).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub camera_sha256: Option<String>,
-    /// Id of the film that a negative is printed on; `None` (`"none"` in text) for reversal film.
+    /// Id of the film that a negative is printed on; `"scan"` for a negative that is scanned and inverted
+    /// ([`FilmProcess::scanned`](crate::FilmProcess::scanned)), `None` (`"none"` in text) for reversal film.
     #[serde(with = "word_lists::print")]
     pub print: Option<String>,
     /// The folder of the print film's data sheet, unless it is built in.
@@ -227,7 +228,11 @@ impl ProcessKeys {
     /// Film by its sheet alone, as the talk has it: the settings of [`FilmProcess::as_in_the_talk`].
     pub fn set_talk(&mut self) {
         let FilmProcess { inter_image, white, gamut, .. } = FilmProcess::default().as_in_the_talk();
-        (self.inter_image, self.white, self.gamut) = (inter_image, white, gamut);
+        (self.inter_image, self.gamut) = (inter_image, gamut);
+        // A scan has no film on the screen, and no white but the display's.
+        if self.print.as_deref() != Some(SCAN) {
+            self.white = white;
+        }
     }
 
     /// What `interimage` is for a word: `film`, `none`, `negative`, `reversal`, or two numbers as `0.6,0.06`.
@@ -238,10 +243,10 @@ impl ProcessKeys {
         parse_inter_image(word)
     }
 
-    /// What `print` is for a word: the id of a film, or `None` for `none`.
+    /// What `print` is for a word: the id of a film, `scan`, or `None` for `none`.
     ///
     /// # Errors
-    /// If the word is `none` in capitals.
+    /// If the word is `none` or `scan` in capitals.
     pub fn parse_print(word: &str) -> Result<Option<String>, Error> {
         parse_print(word)
     }

@@ -7,17 +7,20 @@ use onelight_spectra::SceneWhite;
 
 use crate::error::{Error, ErrorKind};
 use crate::message::cut;
-use crate::process::InterImageChoice;
+use crate::process::{InterImageChoice, SCAN};
 
-/// What `print` is for a word: the id of a film, or `None` for `none`.
+/// What `print` is for a word: the id of a film, `scan`, or `None` for `none`.
 pub(super) fn parse_print(word: &str) -> Result<Option<String>, Error> {
     match word {
         "none" => Ok(None),
-        _ if word.eq_ignore_ascii_case("none") => {
-            let expected = "the id of a print film, or none (did you mean \"none\"?)".to_owned();
-            Err(ErrorKind::Word { what: "print", found: word.to_owned(), expected }.into())
-        }
-        _ => Ok(Some(word.to_owned())),
+        SCAN => Ok(Some(word.to_owned())),
+        _ => match ["none", SCAN].into_iter().find(|meant| word.eq_ignore_ascii_case(meant)) {
+            Some(meant) => {
+                let expected = format!("the id of a print film, or {meant} (did you mean \"{meant}\"?)");
+                Err(ErrorKind::Word { what: "print", found: word.to_owned(), expected }.into())
+            }
+            None => Ok(Some(word.to_owned())),
+        },
     }
 }
 
@@ -179,7 +182,7 @@ pub(super) mod antihalation {
     }
 }
 
-/// `print`: an id, or `"none"`.
+/// `print`: an id, `"scan"` or `"none"`.
 pub(super) mod print {
     use serde::{Deserialize, Deserializer, Serializer, de};
 

@@ -37,8 +37,8 @@ struct PrintAxis {
 impl Axes {
     pub(super) fn new(film: &Reference) -> Result<Self, Error> {
         let camera = film.camera_curves();
-        // No map to the three layers of a print can be found of one, nor is one needed.
-        match film.print_curves().filter(|_| !is_one_layer(film)) {
+        // No map to the three layers of a print or a scan can be found of one, nor is one needed.
+        match film.axis_curves().filter(|_| !is_one_layer(film)) {
             None => {
                 let amounts = camera.map(|curve| {
                     let (least, most) = curve.amount_range().into_inner();
@@ -99,7 +99,7 @@ impl Last {
             .par_iter()
             .filter_map(|&rgb| {
                 let amounts = film.camera_amounts(film.exposure_matrix().expose(rgb).map(LogExposure::of));
-                let exposure = film.print_exposure(amounts)?;
+                let exposure = film.exposure_behind(amounts)?;
                 Some((Vector3::from(amounts.map(|a| a.0).to_array()), Vector3::from(exposure.map(|h| h.0).to_array())))
             })
             .collect();

@@ -13,6 +13,7 @@ use onelight_spectra::{DisplayLinear, TransferCurve};
 use rayon::prelude::*;
 
 use crate::error::{Error, ErrorKind};
+use crate::positive::Positive;
 use crate::reference::Reference;
 use crate::word::{Word as _, words};
 use axes::{Axes, is_one_layer};
@@ -74,7 +75,7 @@ pub struct StructuredSettings {
     pub interpolation: Interpolation,
     /// Where its entries come from.
     pub entries: Entries,
-    /// What the entries of the table are.
+    /// What the entries of the table are; always [`TableCoding::Display`] for a scan, whose black is no light at all and has no density.
     pub coding: TableCoding,
 }
 
@@ -122,9 +123,13 @@ impl Reference {
     /// If the size is out of bounds.
     pub fn structured(&self, settings: &StructuredSettings) -> Result<StructuredLut, Error> {
         let axes = Axes::new(self)?;
-        let encode = Encode { film: self, coding: settings.coding };
+        let entries = match self.positive() {
+            Positive::Scan(_) => TableCoding::Display,
+            Positive::Itself | Positive::Print(_) => settings.coding,
+        };
+        let encode = Encode { film: self, coding: entries };
         let table = encode.sampled(&axes, settings.size)?;
-        let decode = match settings.coding {
+        let decode = match entries {
             TableCoding::Display => Decode::Coded,
             TableCoding::Density => {
                 Decode::Density { matrix: rows(&self.rgb_from_entries()), coding: coding(self.coding().curve)? }
@@ -152,7 +157,7 @@ impl Reference {
 
     /// From 10^-entry to linear RGB.
     fn rgb_from_entries(&self) -> Matrix3<f64> {
-        self.rgb_from_xyz() * 10f64.powf(-DENSITY_ORIGIN)
+        self.rgb_from_light() * 10f64.powf(-DENSITY_ORIGIN)
     }
 }
 
@@ -205,7 +210,7 @@ impl Encode<'_> {
         match self.coding {
             TableCoding::Display => self.film.coding().encode_rgb(self.film.develop_amounts(amounts)).map(|v| v as f32),
             TableCoding::Density => {
-                let density = self.film.xyz_of_amounts(amounts).map(|v| (-v.log10()).min(DENSITY_MAX));
+                let density = self.film.light_of_amounts(amounts).map(|v| (-v.log10()).min(DENSITY_MAX));
                 density.map(|d| (d - DENSITY_ORIGIN) as f32)
             }
         }

@@ -14,6 +14,7 @@ mod oracle;
 mod own_stock;
 mod print_alone;
 mod properties;
+mod scan;
 mod scene_light;
 mod stages;
 mod structured;

@@ -7,7 +7,7 @@ use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use onelight::baked::{FileFormat, Form, ShaperChoice, Target};
 use onelight::lut::Storage;
-use onelight::{DirectSettings, Entries, Nodes, TableCoding, Word as _};
+use onelight::{Entries, Nodes, TableCoding, Word as _};
 
 use crate::look::LookArguments;
 use crate::words::words;
@@ -50,7 +50,7 @@ pub(crate) struct Arguments {
     /// Files to write, comma-separated [default: cube for plain, clf for structured, json for direct]
     #[arg(long, value_delimiter = ',', value_name = "FORMATS", value_parser = words::<FileFormat>())]
     pub(super) format: Vec<FileFormat>,
-    /// Exponentials of the direct form: of the projection, and of the print's exposure [default: 10,5]
+    /// Exponentials of the direct form: of the projection, and of the print's exposure [default: 10,5, and up to 12,8 where a print shows misses]
     #[arg(long, value_name = "P[,D]", value_parser = nodes)]
     pub(super) nodes: Option<Nodes>,
     /// Choose the smallest structured table, or with --form direct the fewest exponentials, whose certified maximum is at most X
@@ -95,8 +95,7 @@ fn stops(text: &str) -> Result<f64, String> {
 
 fn nodes(text: &str) -> Result<Nodes, String> {
     let counts: Result<Vec<usize>, _> = text.split(',').map(str::parse).collect();
-    let usual = DirectSettings::default().nodes;
-    match (counts.as_deref(), usual) {
+    match (counts.as_deref(), Nodes::USUAL_COUNTS) {
         (Ok(&[projection, duplication]), _) | (Ok(&[projection]), Nodes::Counts { duplication, .. }) => {
             Ok(Nodes::Counts { projection, duplication })
         }

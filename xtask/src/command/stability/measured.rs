@@ -1,5 +1,5 @@
 use anyhow::Result;
-use onelight::{Stock, pairs, stock, stock_ids};
+use onelight::{Stock, StockKind, pairs, stock, stock_ids};
 use onelight_benches::DescribedLook;
 use onelight_benches::stability::{Card, Contents, STEPS, rows as measured};
 
@@ -45,7 +45,11 @@ fn looks(arguments: &Arguments) -> Result<Vec<DescribedLook>> {
     }
     let stocks: Vec<Stock> = stock_ids().map(stock).collect::<Result<_, _>>()?;
     let look = |(camera, print): (&Stock, Option<&Stock>)| {
-        let films = (camera.id().to_owned(), print.map(|print| print.id().to_owned()));
+        let print = match print {
+            None if camera.kind() == StockKind::Negative => Some("scan"),
+            print => print.map(Stock::id),
+        };
+        let films = (camera.id().to_owned(), print.map(str::to_owned));
         with_films(&chosen.process, films, |_| {}).map(DescribedLook::from)
     };
     pairs(&stocks).into_iter().map(look).collect()

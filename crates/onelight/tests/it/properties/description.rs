@@ -128,7 +128,8 @@ fn first() -> BoxedStrategy<String> {
 fn description() -> impl Strategy<Value = String> {
     let films = prop_oneof![
         20 => films().prop_map(|(camera, print)| {
-            format!("camera = {camera:?}\nprint = {:?}", print.unwrap_or_else(|| "none".to_owned()))
+            let alone = if onelight::stock(&camera).unwrap().kind() == onelight::StockKind::Negative { "scan" } else { "none" };
+            format!("camera = {camera:?}\nprint = {:?}", print.as_deref().unwrap_or(alone))
         }),
         1 => (hostile(), hostile()).prop_map(|(camera, print)| format!("camera = {camera}\nprint = {print}")),
     ];

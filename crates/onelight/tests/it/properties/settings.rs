@@ -3,8 +3,8 @@
 use onelight::printing::Calibration;
 use onelight::{
     Aim, ColourSpaces, DyeModel, FilmProcess, Filters, HeatGlass, Image, Infrared, InterImage, InterImageChoice,
-    Matching, PrintCurves, PrinterLight, Printing, Projector, Reconstruction, Stock, StockKind, Tail, TransferCurve,
-    White, WideGamut, Word, WorkingSpace, Wratten, stock, stock_ids,
+    Matching, PrintCurves, PrinterLight, Printing, Projector, Reconstruction, ScanRule, Stock, StockKind, Tail,
+    TransferCurve, White, WideGamut, Word, WorkingSpace, Wratten, stock, stock_ids,
 };
 use proptest::prelude::*;
 
@@ -12,15 +12,15 @@ pub(crate) fn word<T: Word + std::fmt::Debug>() -> impl Strategy<Value = T> {
     (0..T::ALL.len()).prop_map(|i| T::ALL[i].0)
 }
 
-/// A camera film as it is, or on something that it is printed on.
+/// A camera film as it is or scanned, or on something that it is printed on.
 pub(crate) fn films() -> impl Strategy<Value = (String, Option<String>)> {
     let stocks: Vec<Stock> = stock_ids().map(|id| stock(id).unwrap()).collect();
     let pairs = stocks.iter().flat_map(|camera| {
         let prints = stocks.iter().filter(|print| camera.is_printed_on(print));
         prints.map(|print| (camera.id().to_owned(), Some(print.id().to_owned())))
     });
-    let alone = stocks.iter().filter(|camera| matches!(camera.kind(), StockKind::Reversal | StockKind::Instant));
-    let alone = alone.map(|camera| (camera.id().to_owned(), None)).collect::<Vec<_>>();
+    let alone = stocks.iter().filter(|camera| camera.kind().is_camera_film());
+    let alone: Vec<_> = alone.map(|camera| (camera.id().to_owned(), None)).collect();
     prop_oneof![3 => prop::sample::select(pairs.collect::<Vec<_>>()), 1 => prop::sample::select(alone)]
 }
 
@@ -50,6 +50,11 @@ fn film() -> impl Strategy<Value = FilmProcess> {
             spaces,
         )| {
             let usual = FilmProcess::default();
+            // A negative without a print is scanned, by whose rule there is neither sheet aim nor light.
+            let is_scan = print.is_none() && stock(&camera).unwrap().kind() == StockKind::Negative;
+            let scan = is_scan.then(ScanRule::default);
+            let (aim, projector, white) =
+                if is_scan { (usual.aim, usual.projector, usual.white) } else { (aim, projector, white) };
             let shown = stock(print.as_ref().unwrap_or(&camera)).unwrap();
             // Nothing projects paper.
             let projector = if shown.kind().is_reflective() { Projector::ViewingBooth } else { projector };
@@ -58,6 +63,7 @@ fn film() -> impl Strategy<Value = FilmProcess> {
             FilmProcess {
                 camera: camera.into(),
                 print: print.as_deref().map(Printing::on),
+                scan,
                 aim,
                 neutral_density: if aim == Aim::Sheet { usual.neutral_density } else { neutral_density },
                 overexposure,
