@@ -33,6 +33,11 @@ pub trait Finish: Sync {
     /// Amounts may be slightly below 0.
     fn display_linear(&self, amounts: [f64; 3]) -> [f64; 3];
 
+    /// The same of many amounts: what maps whole rows faster than single pixels says how.
+    fn display_linear_of(&self, amounts: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        amounts.iter().map(|amounts| self.display_linear(*amounts)).collect()
+    }
+
     /// CIELAB of display-linear RGB.
     fn lab(&self, display_linear: [f64; 3]) -> [f64; 3];
 

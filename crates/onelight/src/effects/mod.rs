@@ -105,6 +105,39 @@ impl FilmEffects {
         Ok(self.format.pitch(width, pixel_aspect)?)
     }
 
+    /// A stage with every effect that is not off, whether it can be seen or not: for a graphics card, and for whoever looks at no picture
+    /// before it is shown.
+    ///
+    /// ```
+    /// use onelight::spatial::{FilmFormat, Frame};
+    /// use onelight::{Effects, FilmEffects, FilmProcess, FilmSteps};
+    /// let effects = Effects { film_format: Some(FilmFormat::Super16), ..Effects::default() };
+    /// let process = FilmProcess { effects, ..FilmProcess::default() };
+    /// let film = process.compile()?;
+    /// let direct = film.direct(&Default::default())?;
+    /// let effects = FilmEffects::new(&process)?.ok_or("a film format was given")?;
+    /// let frame = Frame::new([64, 48], effects.pitch(2048, 1.0)?)?;
+    /// let stage = effects.stage(&FilmSteps::direct(&film, &direct)?, frame)?;
+    /// assert!(stage.numbers().grain.is_some() && stage.numbers().halation.is_none());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If a number of grain is out of its range: none that a process lets through.
+    pub fn stage(&self, steps: &FilmSteps<'_>, frame: Frame) -> Result<SpatialStage, Error> {
+        let mut stage = SpatialStage::new(frame);
+        if let Some((grain, _)) = self.grain(frame.pitch(), steps)? {
+            stage = stage.with_grain(grain)?;
+        }
+        if let Some((sharpness, _)) = &self.sharpness {
+            stage = stage.with_sharpness(sharpness);
+        }
+        if let Some((halation, _)) = &self.halation {
+            stage = stage.with_halation(halation.clone());
+        }
+        Ok(stage)
+    }
+
     /// About how much memory an [`EffectsRun`] takes for a picture that comes in bands of so many pixels, with the bands that wait for
     /// those below them.
     #[must_use]

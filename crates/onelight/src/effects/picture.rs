@@ -7,6 +7,9 @@ use crate::process::EffectChoice;
 
 /// Greys whose grain is looked at, in halves of a stop about mid grey.
 const HALVES: std::ops::RangeInclusive<i32> = -4..=4;
+/// Rows for each thread that go through all steps together: what lies between the steps stays in the caches, and so few are not divided
+/// further.
+const ROWS: usize = 64;
 
 /// The first look at a picture: which effects can be seen in it, and what halation needs of all of it. The example is at
 /// [`FilmEffects`].
@@ -47,6 +50,56 @@ impl FilmEffects {
             }
         }
         Ok(FirstLook { effects: self, steps, frame, pass })
+    }
+
+    /// A whole picture that is in memory: scene-linear RGB of the look's input space, row by row, to display-coded RGB; and for each
+    /// effect a sentence that says why it was run or not.
+    ///
+    /// ```
+    /// use onelight::spatial::{FilmFormat, Frame};
+    /// use onelight::{Effects, FilmEffects, FilmProcess, FilmSteps, Look};
+    /// let effects = Effects { film_format: Some(FilmFormat::Super8), ..Effects::default() };
+    /// let process = FilmProcess { effects, ..FilmProcess::for_camera("kodak-5219")? };
+    /// let look = Look::Film(process.compile()?);
+    /// let effects = FilmEffects::new(&process)?.ok_or("a film format was given")?;
+    /// let frame = Frame::new([40, 30], effects.pitch(1024, 1.0)?)?;
+    /// let (shown, reasons) = effects.develop(FilmSteps::of(&look, None)?, frame, &[[0.18; 3]; 40 * 30])?;
+    /// assert_eq!((shown.len(), reasons.len()), (40 * 30, 2));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If the picture has not as many pixels as the frame, or as [`FilmEffects::look_at`].
+    pub fn develop(
+        &self,
+        steps: FilmSteps<'_>,
+        frame: Frame,
+        linear: &[[f32; 3]],
+    ) -> Result<(Vec<[f32; 3]>, Vec<String>), Error> {
+        let (width, height) = (frame.width(), frame.height());
+        if linear.len() != width * height {
+            let found = linear.len();
+            let sentence = format!("picture: found {found} pixels, expected {width} x {height} as its frame has");
+            return Err(ErrorKind::Contradiction(sentence).into());
+        }
+        let band = width * rows_together();
+        let mut first = self.look_at(steps, frame)?;
+        if first.needs_picture() {
+            linear.chunks(band).try_for_each(|rows| first.add(rows))?;
+        }
+        let mut run = first.finish()?;
+        let mut shown = vec![[0.0; 3]; linear.len()];
+        let mut rest = shown.as_mut_slice();
+        for rows in linear.chunks(band) {
+            run.add(rows)?;
+            let (ready, below) = rest.split_at_mut(width * run.ready());
+            if !ready.is_empty() {
+                run.develop(ready)?;
+            }
+            rest = below;
+        }
+        let EffectsRun { reasons, .. } = run;
+        Ok((shown, reasons))
     }
 }
 
@@ -148,14 +201,24 @@ impl EffectsRun<'_> {
     /// If they are no whole rows, or not [ready](EffectsRun::ready).
     pub fn develop(&mut self, shown: &mut [[f32; 3]]) -> Result<(), Error> {
         let rows = whole_rows(shown.len(), self.width)?;
-        let amounts = self.run.amounts(rows, &self.steps)?;
-        let steps = &self.steps;
-        shown
-            .par_chunks_mut(self.width)
-            .zip(amounts.rows())
-            .for_each(|(shown, row)| steps.finish(amounts.row(row), shown));
+        if !(1..=self.run.ready()).contains(&rows) {
+            // Which says what is wrong.
+            self.run.amounts(rows, &self.steps)?;
+        }
+        for shown in shown.chunks_mut(self.width * rows_together()) {
+            let amounts = self.run.amounts(shown.len() / self.width, &self.steps)?;
+            let steps = &self.steps;
+            shown
+                .par_chunks_mut(self.width)
+                .zip(amounts.rows())
+                .for_each(|(shown, row)| steps.finish(amounts.row(row), shown));
+        }
         Ok(())
     }
+}
+
+fn rows_together() -> usize {
+    ROWS * rayon::current_num_threads()
 }
 
 fn expose(steps: &FilmSteps<'_>, linear: &[[f32; 3]], planes: &mut Planes, rows: std::ops::Range<usize>) {

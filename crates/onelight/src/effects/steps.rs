@@ -61,6 +61,22 @@ impl<'a> FilmSteps<'a> {
         Ok(Self { difference: film.difference()?, film, form })
     }
 
+    /// Of a film and its direct form.
+    ///
+    /// ```
+    /// use onelight::{DirectSettings, FilmProcess, FilmSteps, LiveDirect};
+    /// let live = LiveDirect::new(&FilmProcess::default(), DirectSettings::default())?;
+    /// let steps = FilmSteps::direct(live.film(), live.form())?;
+    /// # let _ = steps;
+    /// # Ok::<(), onelight::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// None with the display spaces that are built in.
+    pub fn direct(film: &'a Reference, direct: &'a DirectForm) -> Result<Self, Error> {
+        Ok(Self { difference: film.difference()?, film, form: Form::Direct(direct) })
+    }
+
     /// Scene-linear RGB of the look's input space to the exposure of each layer, hard inputs as in [`Reference::develop`].
     pub fn expose(&self, linear: &[[f32; 3]], layers: [&mut [f32]; 3]) {
         match self.form {
@@ -142,13 +158,20 @@ impl Development for FilmSteps<'_> {
 
 impl Finish for FilmSteps<'_> {
     fn display_linear(&self, amounts: [f64; 3]) -> [f64; 3] {
-        if let Form::Exact = self.form {
-            return self.film.develop_amounts(dye(amounts)).0;
+        match self.form {
+            Form::Exact => self.film.develop_amounts(dye(amounts)).0,
+            _ => self.display_linear_of(&[amounts])[0],
         }
-        let [red, green, blue] = amounts.map(|a| [a as f32]);
-        let mut shown = [[0.0; 3]];
+    }
+
+    fn display_linear_of(&self, amounts: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        if let Form::Exact = self.form {
+            return amounts.iter().map(|amounts| self.film.develop_amounts(dye(*amounts)).0).collect();
+        }
+        let [red, green, blue] = [0, 1, 2].map(|layer| amounts.iter().map(|a| a[layer] as f32).collect::<Vec<f32>>());
+        let mut shown = vec![[0.0; 3]; amounts.len()];
         FilmSteps::finish(self, [&red, &green, &blue], &mut shown);
-        *self.coding().decode_rgb(shown[0].map(f64::from))
+        shown.into_iter().map(|rgb| *self.coding().decode_rgb(rgb.map(f64::from))).collect()
     }
 
     fn lab(&self, display_linear: [f64; 3]) -> [f64; 3] {

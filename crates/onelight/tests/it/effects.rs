@@ -104,6 +104,10 @@ fn bands_and_threads_give_the_same_bytes() {
     for (threads, band) in [(3, SIZE[1]), (1, 1), (2, 7), (4, 64)] {
         assert!(run(threads, band) == (whole.clone(), reasons.clone()), "{threads} threads, bands of {band}");
     }
+    let steps = || FilmSteps::of(&look, Some(&baked)).unwrap();
+    assert!(effects.develop(steps(), frame(2048), &picture).unwrap() == (whole, reasons), "as a whole");
+    let message = effects.develop(steps(), frame(2048), &picture[1..]).unwrap_err().to_string();
+    assert_eq!(message, "picture: found 35999 pixels, expected 240 x 150 as its frame has");
 }
 
 /// Where no effect is run the steps are those of the form, and every reason is told.
@@ -152,6 +156,38 @@ fn grain_keeps_large_areas() {
                 assert!(off < 0.03 * scatter, "{camera} {level} {layer}: {mean} for {}", linear(plain[layer]));
                 assert!(scatter > 0.01 * mean, "{camera} {level} {layer}: {scatter} of {mean}");
             }
+        }
+    }
+}
+
+/// A structured table ends where light can lead, and grain leads beyond: there it is held at the end. The direct form goes on, so it is what
+/// the table is held against. On negatives printed little is lost; on clear reversal film half of the grain is, which docs/spatial.md states.
+#[test]
+fn grain_beyond_the_ends_of_a_table_is_held_there() {
+    for camera in ["kodak-5219", "kodak-5207", "kodak-ektachrome-100"] {
+        let process = process(camera, |effects| {
+            (effects.grain, effects.sharpness) = (EffectChoice::On, EffectChoice::Off);
+        });
+        let look = Look::Film(process.compile().unwrap());
+        let [direct, structured] = [Form::Direct, Form::Structured].map(|form| look.baked(&Recipe::of(form)).unwrap());
+        let effects = FilmEffects::new(&process).unwrap().unwrap();
+        let difference = look.difference().unwrap();
+        for level in [0.0, 0.18 / 64.0, 0.18, 0.18 * 16.0, 0.18 * 1024.0] {
+            let between = |a: [f32; 3], b: [f32; 3]| {
+                let [a, b] = [a, b].map(|rgb| look.coding().decode_rgb(rgb.map(f64::from)));
+                difference.between(a, b)
+            };
+            let grey = vec![[level; 3]; SIZE[0] * SIZE[1]];
+            let [with_direct, with_table] = [&direct, &structured]
+                .map(|baked| developed(&effects, &look, Some(baked), frame(2048), &grey, SIZE[1]).0);
+            let mut all: Vec<f64> = with_direct.iter().zip(&with_table).map(|(a, b)| between(*a, *b)).collect();
+            all.sort_by(f64::total_cmp);
+            let at = |part: f64| all[((all.len() - 1) as f64 * part) as usize];
+            let is_clear = camera == "kodak-ektachrome-100" && level > 1.0;
+            let allowed = if is_clear { [0.6, 2.1] } else { [0.2, 0.5] };
+            let found = [at(0.5), at(0.99)];
+            assert!(found[0] < allowed[0] && found[1] < allowed[1], "{camera} {level}: {found:?}");
+            assert!(!is_clear || found[1] > 1.0, "docs/spatial.md says otherwise: {found:?}");
         }
     }
 }

@@ -47,8 +47,10 @@ pub fn grain_decision(grain: &Grain, frame: &Frame, greys: &[[f64; 3]], finish: 
     for grey in greys {
         let sigma = grain.sigma(PerLayer::from(*grey)).to_array();
         let (mut mean, mut square) = ([0.0; 3], [0.0; 3]);
-        for (z, weight) in normal_nodes() {
-            let lab = finish.lab(finish.display_linear(std::array::from_fn(|k| grey[k] + sigma[k] * z[k])));
+        let amounts: Vec<[f64; 3]> =
+            normal_nodes().map(|(z, _)| std::array::from_fn(|k| grey[k] + sigma[k] * z[k])).collect();
+        for ((_, weight), light) in normal_nodes().zip(finish.display_linear_of(&amounts)) {
+            let lab = finish.lab(light);
             for k in 0..3 {
                 mean[k] += weight * lab[k];
                 square[k] += weight * lab[k] * lab[k];

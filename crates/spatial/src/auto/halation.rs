@@ -72,25 +72,30 @@ impl HalationProbe {
     pub fn finish(self, development: &impl Development, finish: &impl Finish) -> Result<Decision, Error> {
         let [x, _] = self.cells.axes();
         let field = self.cells.finish()?;
-        let difference = |(index, exposure): (usize, &[f32; 3])| {
+        let raised = |(index, exposure): (usize, &[f32; 3])| {
             let cell = [index % x.count, index / x.count];
             let raised: [f32; 3] = std::array::from_fn(|layer| field.exposed_in_cell(layer, cell, exposure[layer]));
             let gains = |(e, raised): (&f32, &f32)| (raised - e).abs() > LEAST_GAIN * e;
-            if !exposure.iter().zip(&raised).any(gains) {
-                return 0.0;
-            }
-            let [without, with] = [*exposure, raised].map(|exposure| shown(exposure, development, finish));
-            finish.difference(without, with)
+            exposure.iter().zip(&raised).any(gains).then_some([*exposure, raised])
         };
-        let largest = self.darkest.par_iter().enumerate().map(difference).reduce(|| 0.0, f64::max);
+        let rows = self.darkest.par_chunks(x.count).enumerate().map(|(row, darkest)| {
+            let first = row * x.count;
+            let pairs: Vec<[[f32; 3]; 2]> = (first..).zip(darkest).filter_map(raised).collect();
+            let side = |i: usize| pairs.iter().map(|pair| pair[i]).collect::<Vec<[f32; 3]>>();
+            let [without, with] = [side(0), side(1)].map(|exposures| shown(&exposures, development, finish));
+            without.into_iter().zip(with).map(|(a, b)| finish.difference(a, b)).fold(0.0, f64::max)
+        });
+        let largest = rows.reduce(|| 0.0, f64::max);
         let measured = format!("at most {largest:.2} dE");
         Ok(Decision::new(Effect::Halation, largest >= LEAST_DIFFERENCE, &measured, &self.frame))
     }
 }
 
-/// Display-linear colour of a pixel's exposures.
-pub(super) fn shown(exposure: [f32; 3], development: &impl Development, finish: &impl Finish) -> [f64; 3] {
-    let [mut red, mut green, mut blue] = exposure.map(|e| [e]);
+/// Display-linear colours of exposures.
+fn shown(exposures: &[[f32; 3]], development: &impl Development, finish: &impl Finish) -> Vec<[f64; 3]> {
+    let [mut red, mut green, mut blue] =
+        [0, 1, 2].map(|layer| exposures.iter().map(|e| e[layer]).collect::<Vec<f32>>());
     development.develop([&mut red, &mut green, &mut blue]);
-    finish.display_linear([red[0], green[0], blue[0]].map(f64::from))
+    let amounts = red.iter().zip(&green).zip(&blue).map(|((r, g), b)| [*r, *g, *b].map(f64::from));
+    finish.display_linear_of(&amounts.collect::<Vec<_>>())
 }

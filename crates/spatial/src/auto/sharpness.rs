@@ -151,15 +151,13 @@ impl SharpnessProbe {
         let inside = rows.start - down.start..rows.end - down.start;
         let with = with.amounts(&part, None, inside.clone(), development)?;
         let without = without.amounts(&part, None, inside.clone(), development)?;
-        let pixel = |planes: &Planes, x: usize, y: usize| planes.row(y).map(|layer| f64::from(layer[x]));
-        let mut differences = Vec::with_capacity(columns.len() * inside.len());
-        for y in inside {
-            for x in columns.clone().map(|x| x - across.start) {
-                let [with, without] = [&with, &without].map(|planes| finish.display_linear(pixel(planes, x, y)));
-                differences.push(finish.difference(with, without));
-            }
-        }
-        Ok(differences)
+        let pixels = |planes: &Planes| {
+            let pixel = |x: usize, y: usize| planes.row(y).map(|layer| f64::from(layer[x - across.start]));
+            let row = |y: usize| columns.clone().map(move |x| pixel(x, y));
+            finish.display_linear_of(&inside.clone().flat_map(row).collect::<Vec<_>>())
+        };
+        let shown = pixels(&with).into_iter().zip(pixels(&without));
+        Ok(shown.map(|(with, without)| finish.difference(with, without)).collect())
     }
 }
 

@@ -33,9 +33,10 @@ fn mean_shift(grey: [f64; 3], sigma: [f64; 3], finish: &impl Finish) -> [f64; 3]
     let mut shift = Vector3::<f64>::zeros();
     for _ in 0..STEPS {
         let (mut mean, mut slope) = (Vector3::zeros(), Matrix3::zeros());
-        for (z, weight) in normal_nodes() {
-            let amounts = std::array::from_fn(|k| grey[k] + sigma[k] * z[k] + shift[k]);
-            let light = weight * Vector3::from(finish.display_linear(amounts));
+        let amounts = |z: [f64; 3]| std::array::from_fn(|k| grey[k] + sigma[k] * z[k] + shift[k]);
+        let amounts: Vec<[f64; 3]> = normal_nodes().map(|(z, _)| amounts(z)).collect();
+        for ((z, weight), light) in normal_nodes().zip(finish.display_linear_of(&amounts)) {
+            let light = weight * Vector3::from(light);
             mean += light;
             slope += light * Vector3::from(z).transpose();
         }

@@ -128,6 +128,41 @@ fn grain_has_its_strength_its_correlation_and_no_memory() {
     }
 }
 
+/// A second of film: no frame is like another, at its own place or moved, so nothing stands still and nothing drifts.
+#[test]
+fn no_frame_of_a_sequence_is_like_another() {
+    const SIDE: usize = 192;
+    let pitch = FilmFormat::Super35.pitch(2048, 1.0).unwrap();
+    let grain = grain("kodak-5219", pitch, 2.5);
+    let level = 0.5f32;
+    let frames: Vec<Vec<f64>> = (1001..1025)
+        .map(|number| {
+            let frame = Frame::new([SIDE, SIDE], pitch).unwrap().numbered(number);
+            let planes = field(&grain, frame, [level; 3]);
+            let green: Vec<f64> = (0..SIDE).flat_map(|y| planes.row(y)[1]).map(|a| f64::from(a - level)).collect();
+            let count = green.len() as f64;
+            let mean = green.iter().sum::<f64>() / count;
+            let sigma = (green.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt();
+            green.iter().map(|v| (v - mean) / sigma).collect()
+        })
+        .collect();
+    let correlation = |a: &[f64], b: &[f64], [dx, dy]: [usize; 2]| {
+        let at = |i: usize| (i / SIDE + dy) % SIDE * SIDE + (i % SIDE + dx) % SIDE;
+        (0..a.len()).map(|i| a[i] * b[at(i)]).sum::<f64>() / a.len() as f64
+    };
+    // Neighbouring pixels share clouds, so fewer numbers are independent: by a fifth more scatter.
+    let error = 1.2 / SIDE as f64;
+    let pairs = (0..frames.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
+    let still: Vec<f64> = pairs.map(|(a, b)| correlation(&frames[a], &frames[b], [0, 0])).collect();
+    let most = still.iter().fold(0.0f64, |most, found| most.max(found.abs()));
+    // The largest of 276.
+    assert!(most < 4.0 * error, "{most}");
+    for shift in [[1, 0], [0, 1], [1, 1], [SIDE - 1, 0], [0, SIDE - 1], [SIDE - 1, 1], [2, 0], [0, 2], [3, 1]] {
+        let mean = frames.windows(2).map(|pair| correlation(&pair[0], &pair[1], shift)).sum::<f64>() / 23.0;
+        assert!(mean.abs() < 4.0 * error / 23f64.sqrt(), "{shift:?}: {mean}");
+    }
+}
+
 #[test]
 fn settings_out_of_range_are_refused() {
     let sheet = AmountGranularity::of_stock(&stock("kodak-5207")).unwrap();

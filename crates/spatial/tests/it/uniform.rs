@@ -60,3 +60,46 @@ fn scatter_and_halation_move_light_and_neither_make_nor_lose_any() {
         assert!((0..801).all(|y| amounts.row(y).into_iter().flatten().all(|a| *a >= 0.0)));
     }
 }
+
+/// A picture narrower than the blurs is as if its edges went on for ever: the same as with those pixels around it. Light and what is blurred
+/// pixel by pixel to rounding; where adjacency is blurred in cells, the outermost cell's mean goes on and not the outermost pixel.
+#[test]
+fn narrow_pictures_are_as_if_their_edges_went_on() {
+    const AROUND: usize = 90;
+    const BRIGHTEST: f32 = 3.2;
+    // Of the light of this picture: the Ektachrome has no adjacency.
+    let films = [("kodak-ektachrome-100", 1e-6), ("kodak-5219", 0.06)];
+    let sizes = [([3, 7], 12.158), ([1, 40], 6.0), ([25, 2], 3.0)];
+    for ((id, allowed), (size, um)) in films.into_iter().flat_map(|film| sizes.map(|size| (film, size))) {
+        let sharpness = Sharpness::of_stock(&stock(id)).unwrap();
+        let pitch = Pitch::new(um, um).unwrap();
+        let light = |x: usize, y: usize, k: usize| 0.2 + ((x * 31 + y * 17 + k * 7) % 13) as f32 / 4.0;
+        let picture = |size: [usize; 2], around: usize, inner: [usize; 2]| {
+            let mut planes = Planes::new(size[0], 0..size[1]).unwrap();
+            for y in 0..size[1] {
+                for (k, row) in planes.row_mut(y).into_iter().enumerate() {
+                    for (x, e) in row.iter_mut().enumerate() {
+                        let inside = |at: usize, side: usize| at.saturating_sub(around).min(side - 1);
+                        *e = light(inside(x, inner[0]), inside(y, inner[1]), k);
+                    }
+                }
+            }
+            planes
+        };
+        let stage = |size: [usize; 2], offset: i32| {
+            SpatialStage::new(Frame::new(size, pitch).unwrap().at([offset, offset])).with_sharpness(&sharpness)
+        };
+        let wide = size.map(|side| side + 2 * AROUND);
+        let alone = whole(&stage(size, 0), &picture(size, 0, size));
+        let within = whole(&stage(wide, -(AROUND as i32)), &picture(wide, AROUND, size));
+        let mut largest = 0.0f32;
+        for y in 0..size[1] {
+            for (a, b) in alone.row(y).into_iter().zip(within.row(y + AROUND)) {
+                for (a, b) in a.iter().zip(&b[AROUND..]) {
+                    largest = largest.max((a - b).abs());
+                }
+            }
+        }
+        assert!(largest <= allowed * BRIGHTEST, "{id} {size:?} {um}: {largest}");
+    }
+}
