@@ -4,6 +4,7 @@ use crate::error::{Error, ErrorKind};
 use crate::kernel::block::Block;
 use crate::kernel::coupling::{CouplingCurves, MAX_PIECES};
 use crate::kernel::curves::Curves;
+use crate::kernel::steps::widened;
 use crate::lut1d::Lut1d;
 use crate::number::Number;
 use crate::scene_light::{Rows, check_rows, times};
@@ -92,13 +93,20 @@ impl Develop {
 pub(crate) struct DevelopCurves {
     coupling: Option<CouplingCurves>,
     curves: Curves,
+    /// The least and the largest that each curve gives, widened.
+    held: [[f32; 2]; 3],
 }
 
 impl DevelopCurves {
     pub(crate) fn new(develop: &Develop) -> Self {
         let coupling = develop.coupling.as_ref();
         let coupling = coupling.map(|coupling| CouplingCurves::new(&coupling.curves, coupling.matrix));
-        Self { coupling, curves: Curves::new(&develop.curves) }
+        Self { coupling, curves: Curves::new(&develop.curves), held: widened(develop.curves.ends()) }
+    }
+
+    /// Between what values are held that do not come from the curves.
+    pub(crate) fn held(&self) -> [[f32; 2]; 3] {
+        self.held
     }
 
     /// [`Develop::apply`] of the block's colours.

@@ -175,7 +175,7 @@ impl DirectForm {
         }
         if let (Some(print), Some(steps)) = (&mut self.parts.print, &mut self.print) {
             print.exposure = print.exposure.scaled(factors)?;
-            steps.exposure = Exponentials::new(&print.exposure, widened(self.parts.develop.curves.ends()));
+            steps.exposure = Exponentials::new(&print.exposure, self.develop.held());
         }
         Ok(self)
     }
@@ -209,7 +209,7 @@ impl BlockMap for DirectForm {
 
 impl BlockSteps for DirectForm {
     fn held(&self) -> [[f32; 2]; 3] {
-        widened(self.parts.develop.curves.ends())
+        self.develop.held()
     }
 
     fn expose_block(&self, level: Level, block: &mut Block, count: usize) {

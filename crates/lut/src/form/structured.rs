@@ -11,7 +11,7 @@ use crate::kernel::coding::decode_density;
 use crate::kernel::curves::Curves;
 use crate::kernel::expose::{affine, expose};
 use crate::kernel::lookup::{lookup, lookup_to};
-use crate::kernel::steps::{BlockSteps, widened};
+use crate::kernel::steps::BlockSteps;
 use crate::lut1d::Lut1d;
 use crate::lut3d::Lut3d;
 use crate::number::Number;
@@ -259,7 +259,7 @@ impl BlockMap for StructuredLut {
 
 impl BlockSteps for StructuredLut {
     fn held(&self) -> [[f32; 2]; 3] {
-        widened(self.parts.develop.curves.ends())
+        self.develop.held()
     }
 
     fn expose_block(&self, level: Level, block: &mut Block, count: usize) {

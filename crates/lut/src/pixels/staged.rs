@@ -68,11 +68,11 @@ pub trait StagedMap: sealed::Sealed + Sync {
     /// there.
     fn finish(&self, layers: [&[f32]; 3], shown: &mut [[f32; 3]]) {
         let (steps, level, block) = (self.steps().0, SimdLevel::best().level(), &mut Block::new());
-        let [red, green, blue] = layers;
+        let ([red, green, blue], held) = (layers, steps.held());
         let layers = red.chunks(BLOCK).zip(green.chunks(BLOCK)).zip(blue.chunks(BLOCK));
         for (shown, ((red, green), blue)) in shown.chunks_mut(BLOCK).zip(layers) {
             let count = load(block, [red, green, blue]).min(shown.len());
-            for (plane, [low, high]) in block.rgb.iter_mut().zip(steps.held()) {
+            for (plane, [low, high]) in block.rgb.iter_mut().zip(held) {
                 plane[..count].iter_mut().for_each(|v| *v = v.max(low).min(high));
             }
             steps.finish_block(level, block, count);
