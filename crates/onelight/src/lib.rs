@@ -120,6 +120,10 @@ mod meter;
 mod pairs;
 #[cfg(feature = "picture")]
 mod picture_colours;
+#[cfg(feature = "picture")]
+mod picture_coverage;
+#[cfg(feature = "picture")]
+mod picture_light;
 mod positive;
 mod process;
 mod process_keys;
@@ -160,6 +164,12 @@ pub use onelight_spectra::{DisplayLinear, Reconstruction, TransferCurve};
 pub use pairs::{looks_with, pairs, seen_on};
 #[cfg(feature = "picture")]
 pub use picture_colours::{colour_tag, space_of};
+#[cfg(feature = "picture")]
+pub use picture_coverage::{Background, Coverage, CoverageSeen};
+#[cfg(feature = "picture")]
+pub use picture_light::{
+    InputColours, InputPrimaries, InputWhite, LightNote, LightSeen, LightSetting, PictureLight, SceneStep,
+};
 pub use process::{
     Approach, ColourSpaces, DEFAULT_CAMERA, DEFAULT_PRINT, DEFAULT_SILVER_PRINT, EffectChoice, Effects, FilmProcess,
     FirstControls, FirstProcess, InterImageChoice, OwnSheet, PrintAlone, Printing, Process, StockRef, ToneMapping,

@@ -1,5 +1,7 @@
 //! How bright a picture is, and how much light it is given.
 
+use onelight::LightSeen;
+
 /// A picture that is metered further from mid grey, in stops, gets a note.
 const FAR_STOPS: f64 = 4.0;
 
@@ -30,63 +32,33 @@ impl std::str::FromStr for Exposure {
     }
 }
 
-/// What has been seen of a picture's light.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Meter {
-    /// Pixels that hold NaN or infinity.
-    hard: usize,
-    light: onelight::Meter,
-}
-
-impl Meter {
-    /// Adds what one row shows.
-    pub(super) fn add(&mut self, row: &RowLight) {
-        self.hard += row.hard;
-        row.logs.iter().for_each(|log2| self.light.add_log2(*log2));
+/// What the user should know of a picture's light, after an exposure of `ev` stops.
+pub(super) fn notes(seen: &LightSeen, exposure: Exposure, ev: f64) -> Vec<String> {
+    let mut notes = Vec::new();
+    if seen.hard > 0 {
+        notes.push(format!(
+            "{} pixels hold NaN or infinity: NaN counts as 0, infinity as {:e}",
+            seen.hard,
+            onelight::SCENE_MAX
+        ));
     }
-
-    /// The exposure that brings what is metered to mid grey; none where there is no light.
-    pub(super) fn auto(&self) -> f64 {
-        self.light.exposure()
-    }
-
-    /// What the user should know of the light, after an exposure of `ev` stops.
-    pub(super) fn notes(&self, exposure: Exposure, ev: f64) -> Vec<String> {
-        let mut notes = Vec::new();
-        if self.hard > 0 {
+    match seen.meter.stops_off() {
+        None if exposure == Exposure::Auto => {
+            notes.push("the picture holds no light to expose for: --ev auto leaves it as it is".to_owned());
+        }
+        Some(off) if (off + ev).abs() > FAR_STOPS => {
+            let left = off + ev;
+            let (what, side) = if left < 0.0 { ("dark", "under") } else { ("bright", "over") };
             notes.push(format!(
-                "{} pixels hold NaN or infinity: NaN counts as 0, infinity as {:e}",
-                self.hard,
-                onelight::SCENE_MAX
+                "the picture is {what}, {:.1} stops {side} mid grey by the meter (--ev auto would use --ev {:+.1})",
+                left.abs(),
+                ev - left
             ));
         }
-        match self.light.stops_off() {
-            None if exposure == Exposure::Auto => {
-                notes.push("the picture holds no light to expose for: --ev auto leaves it as it is".to_owned());
-            }
-            Some(off) if (off + ev).abs() > FAR_STOPS => {
-                let left = off + ev;
-                let (what, side) = if left < 0.0 { ("dark", "under") } else { ("bright", "over") };
-                notes.push(format!(
-                    "the picture is {what}, {:.1} stops {side} mid grey by the meter (--ev auto would use --ev {:+.1})",
-                    left.abs(),
-                    ev - left
-                ));
-            }
-            _ => {}
-        }
-        notes
+        _ => {}
     }
+    notes
 }
-
-/// What one row of a picture adds to the meter.
-#[derive(Debug, Default)]
-pub(super) struct RowLight {
-    pub(super) hard: usize,
-    /// log2 luminance of its lit pixels.
-    pub(super) logs: Vec<f64>,
-}
-
 #[cfg(test)]
 mod tests {
     use onelight::spectra::MID_GREY;
@@ -95,11 +67,11 @@ mod tests {
 
     #[test]
     fn hard_pixels_and_dark_pictures_are_told() {
-        let mut meter = Meter::default();
-        meter.add(&RowLight { hard: 1, logs: vec![MID_GREY.log2() - 6.0; 9] });
-        assert!((meter.auto() - 6.0).abs() < 0.01);
-        assert_eq!(meter.notes(Exposure::Stops(0.0), 0.0).len(), 2);
-        assert_eq!(meter.notes(Exposure::Stops(6.0), 6.0).len(), 1);
-        assert_eq!(Meter::default().notes(Exposure::Auto, 0.0).len(), 1);
+        let mut seen = LightSeen { hard: 1, ..LightSeen::default() };
+        (0..9).for_each(|_| seen.meter.add(MID_GREY * (-6.0_f64).exp2()));
+        assert!((seen.meter.exposure() - 6.0).abs() < 0.01);
+        assert_eq!(notes(&seen, Exposure::Stops(0.0), 0.0).len(), 2);
+        assert_eq!(notes(&seen, Exposure::Stops(6.0), 6.0).len(), 1);
+        assert_eq!(notes(&LightSeen::default(), Exposure::Auto, 0.0).len(), 1);
     }
 }

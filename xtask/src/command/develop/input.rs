@@ -3,8 +3,8 @@
 use std::str::FromStr;
 
 use anyhow::{Result, bail};
-use clap::{Args, ValueEnum};
-use onelight::{InputCoding, Process, Word as _};
+use clap::Args;
+use onelight::{InputCoding, InputColours, InputPrimaries, InputWhite, Process, Word as _};
 use onelight_picture::{Limits, PartChoice, Selection};
 
 use crate::words::words;
@@ -24,7 +24,7 @@ pub(crate) struct InputArguments {
     #[arg(long, value_parser = words::<InputCoding>())]
     input_coding: Option<InputCoding>,
     /// What the white of the picture's space is [default: relative; absolute for XYZ]
-    #[arg(long)]
+    #[arg(long, value_parser = words::<InputWhite>())]
     input_white: Option<InputWhite>,
     /// What lies behind a picture with alpha, scene-linear and before --ev; none keeps the alpha [default: none, and black
     /// where there is light without coverage]
@@ -39,39 +39,14 @@ pub(crate) struct InputArguments {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct InputSettings {
     pub(super) selection: Selection,
-    /// How the numbers are coded, where it was named.
-    pub(super) coding: Option<InputCoding>,
-    pub(super) primaries: InputPrimaries,
-    pub(super) white: Option<InputWhite>,
-    pub(super) background: Option<Background>,
+    /// What the numbers are, as far as it was named.
+    pub(super) colours: InputColours,
+    pub(super) background: Option<onelight::Background>,
 }
 
-/// Whose word counts for the primaries of a picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum InputPrimaries {
-    /// The file's, and the look's where it says nothing.
-    OfFile,
-    /// Those of the look, whatever the file says.
-    OfLook,
-}
-
-/// What (1, 1, 1) of the picture's space is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum InputWhite {
-    /// White, whatever the white of the space: pictures are balanced to their spaces
-    Relative,
-    /// Light of that chromaticity, seen beside D65: one light is one colour in every space
-    Absolute,
-}
-
-/// What lies behind a picture.
+/// [`onelight::Background`] as it is typed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Background {
-    /// Nothing: what comes out has the same alpha.
-    None,
-    /// Light of this colour, in the picture's own space.
-    Light([f32; 3]),
-}
+pub(crate) struct Background(onelight::Background);
 
 impl FromStr for Background {
     type Err = String;
@@ -79,14 +54,14 @@ impl FromStr for Background {
     fn from_str(text: &str) -> Result<Self, String> {
         let expected = || "expected none, black, or red, green and blue such as 0.18,0.18,0.18".to_owned();
         match text {
-            "none" => return Ok(Self::None),
-            "black" => return Ok(Self::Light([0.0; 3])),
+            "none" => return Ok(Self(onelight::Background::None)),
+            "black" => return Ok(Self(onelight::Background::Light([0.0; 3]))),
             _ => {}
         }
         let numbers: Option<Vec<f32>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
         match numbers.as_deref() {
             Some(&[r, g, b]) if [r, g, b].iter().all(|v: &f32| v.is_finite() && *v >= 0.0) => {
-                Ok(Self::Light([r, g, b]))
+                Ok(Self(onelight::Background::Light([r, g, b])))
             }
             _ => Err(expected()),
         }
@@ -103,12 +78,11 @@ fn part(text: &str) -> Result<PartChoice, String> {
 impl InputArguments {
     /// For the pictures of a run; `names_space` where the command line has the picture's primaries too.
     pub(super) fn settings(&self, names_space: bool) -> InputSettings {
+        let primaries = if names_space { InputPrimaries::OfLook } else { InputPrimaries::OfFile };
         InputSettings {
             selection: Selection { layer: self.layer.clone(), part: self.part.clone() },
-            coding: self.input_coding,
-            primaries: if names_space { InputPrimaries::OfLook } else { InputPrimaries::OfFile },
-            white: self.input_white,
-            background: self.background,
+            colours: InputColours { coding: self.input_coding, primaries, white: self.input_white },
+            background: self.background.map(|Background(background)| background),
         }
     }
 }
@@ -116,8 +90,8 @@ impl InputArguments {
 impl InputSettings {
     /// Codes of a scan for what prints them, and nothing else.
     pub(super) fn match_to(&mut self, process: &Process) -> Result<()> {
-        match (process, self.coding) {
-            (Process::Print(_), None) => self.coding = Some(InputCoding::Cineon),
+        match (process, self.colours.coding) {
+            (Process::Print(_), None) => self.colours.coding = Some(InputCoding::Cineon),
             (Process::Print(_), Some(InputCoding::Cineon)) => {}
             (Process::Print(_), Some(coding)) => bail!(
                 "--camera none prints codes of a scanned negative, expected --input-coding cineon instead of {}",
@@ -138,9 +112,10 @@ mod tests {
 
     #[test]
     fn backgrounds_are_words_or_three_numbers() {
-        assert_eq!("none".parse(), Ok(Background::None));
-        assert_eq!("black".parse(), Ok(Background::Light([0.0; 3])));
-        assert_eq!("0.5, 1,2".parse(), Ok(Background::Light([0.5, 1.0, 2.0])));
+        let parse = |text: &str| text.parse().map(|Background(background)| background);
+        assert_eq!(parse("none"), Ok(onelight::Background::None));
+        assert_eq!(parse("black"), Ok(onelight::Background::Light([0.0; 3])));
+        assert_eq!(parse("0.5, 1,2"), Ok(onelight::Background::Light([0.5, 1.0, 2.0])));
         for text in ["", "white", "1", "1,2", "1,2,3,4", "-1,0,0", "nan,0,0", "1,2,inf"] {
             assert!(text.parse::<Background>().is_err(), "{text}");
         }

@@ -5,7 +5,9 @@ use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail};
 use indicatif::ProgressBar;
-use onelight::{EffectsRun, FirstLook, Process, colour_tag};
+use onelight::{
+    Coverage, CoverageSeen, EffectsRun, FirstLook, LightSeen, PictureLight, Process, SceneStep, colour_tag,
+};
 use onelight_picture::{
     Band, BandSink, Channels, Description, JpegSettings, Limits, Metadata, PictureReader, PngSettings, TiffSettings,
     write_jpeg, write_png, write_tiff,
@@ -13,11 +15,10 @@ use onelight_picture::{
 use rayon::prelude::*;
 
 use super::bands::{Busy, look_through, pass};
-use super::coverage::{Coverage, CoverageSeen};
-use super::exposure::{Exposure, Meter};
+use super::exposure::{self, Exposure};
 use super::film::Film;
 use super::input::InputSettings;
-use super::light::Light;
+use super::light::{notes as notes_of_light, with_option};
 use super::on_film::OnFilm;
 use super::output::{KeptMetadata, Target};
 use crate::atomic_file::write_atomically;
@@ -95,8 +96,13 @@ pub(super) fn develop_picture(
     if matches!(look.process, Process::Film(_)) && text_of_complete_picture(input, LOOK_KEY).is_some() {
         notes.push("the picture was developed already: this is film on film".to_owned());
     }
-    let light = Light::new(&description, &look.process, &settings.input, &settings.scene, &mut notes);
-    let mut light = light.with_context(|| input.display().to_string())?;
+    let light = PictureLight::new(&description, look.process.spaces(), &settings.input.colours);
+    let way_out = "the file's colours cannot be used, expected --input-space with the space that is meant";
+    let mut light = light.context(way_out).with_context(|| input.display().to_string())?;
+    notes.extend(notes_of_light(&description, &look.process, &settings.input));
+    notes.extend(settings.scene.notes.iter().cloned());
+    let scene = |rgb| settings.scene.apply(rgb);
+    let scene = (!settings.scene.changes_nothing()).then_some(&scene as SceneStep<'_>);
     let reopened = || {
         let again = open()?;
         if *again.description() != description {
@@ -108,10 +114,12 @@ pub(super) fn develop_picture(
     if description.channels == Channels::Rgba {
         let mut seen = CoverageSeen::default();
         look_through(&mut picture, |band| seen.add(band))?;
-        light.coverage = seen.decide(&description, settings.input.background, &mut notes);
+        let (coverage, more) = seen.decide(&description, settings.input.background);
+        light.coverage = coverage;
+        notes.extend(more.iter().map(with_option));
         if matches!(target, Target::Jpeg(..)) && light.coverage == Coverage::Kept {
             notes.push("a JPEG has no alpha: developed over black (--background chooses another)".to_owned());
-            light.coverage = Coverage::Over([0.0; 3], description.stored_alpha);
+            light.coverage = Coverage::Over([0.0; 3]);
         }
         is_covered = light.coverage != Coverage::Kept || seen.covers_all();
         picture = reopened()?;
@@ -126,16 +134,16 @@ pub(super) fn develop_picture(
         u64::from(*exposure == Exposure::Auto) + u64::from(first_look.as_ref().is_some_and(FirstLook::needs_picture));
     progress.set_length((1 + looks) * height);
 
-    let mut meter = Meter::default();
+    let mut seen_light = LightSeen::default();
     let ev = match *exposure {
         Exposure::Stops(stops) => stops,
         Exposure::Auto => {
             look_through(&mut picture, |band| {
-                light.measure(band, &mut meter);
+                light.measure(band, scene, &mut seen_light);
                 progress.inc(band.rows() as u64);
             })?;
             picture = reopened()?;
-            meter.auto()
+            seen_light.meter.exposure()
         }
     };
     let mut effects = None;
@@ -143,7 +151,7 @@ pub(super) fn develop_picture(
         if first_look.needs_picture() {
             let mut seen = Ok(());
             look_through(&mut picture, |band| {
-                light.expose(band, ev, None);
+                light.expose(band, ev, scene, None);
                 if seen.is_ok() {
                     seen = first_look.add(band.rgb());
                 }
@@ -167,7 +175,7 @@ pub(super) fn develop_picture(
     }
     let mut beyond = 0;
     let develop = |mut band: Band, done: &mut Vec<Band>| {
-        light.expose(&mut band, ev, (*exposure != Exposure::Auto).then_some(&mut meter));
+        light.expose(&mut band, ev, scene, (*exposure != Exposure::Auto).then_some(&mut seen_light));
         beyond += film.max().map_or(0, |max| brighter(&band, max));
         watch(&description, &band);
         match &mut effects {
@@ -189,7 +197,7 @@ pub(super) fn develop_picture(
     }
     let busy = write(order, *target, look, &developed, |sink| pass(&mut picture, develop, sink))?;
 
-    notes.extend(meter.notes(*exposure, ev));
+    notes.extend(exposure::notes(&seen_light, *exposure, ev));
     if target.is_shown() && !description.windows.show_pixels(description.width, description.height) {
         notes.push("the picture is empty, as its data window lies outside of its display window".to_owned());
     }

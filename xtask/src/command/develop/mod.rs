@@ -1,5 +1,4 @@
 mod bands;
-mod coverage;
 pub(crate) mod exposure;
 mod film;
 mod input;

@@ -3,25 +3,65 @@
 use onelight_picture::{Band, Channels, Description, RowMut, StoredAlpha};
 use rayon::prelude::*;
 
-use super::input::Background;
+use crate::picture_light::{LightNote, LightSetting};
 
 /// Light without coverage counts from here on: a thousandth of white, below which is the noise of renderers.
 const SEEN: f32 = 1e-3;
 
-/// What is done with the coverage of a picture before it meets the film.
+/// What lies behind a picture with alpha.
+///
+/// ```
+/// use onelight::Background;
+/// assert_ne!(Background::None, Background::Light([0.0; 3]));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Coverage {
+pub enum Background {
+    /// Nothing: what comes out has the same alpha.
+    None,
+    /// Light of this colour, in the picture's own space.
+    Light([f32; 3]),
+}
+
+/// What is done with the coverage of a picture before it meets the film.
+///
+/// ```
+/// use onelight::{Coverage, picture::{Channels, Description, Source}};
+/// let picture = Description::new(3, 2, Channels::Rgba, Source::Exr);
+/// assert_eq!(Coverage::Kept.channels(&picture), Channels::Rgba);
+/// assert_eq!(Coverage::Over([0.0; 3]).channels(&picture), Channels::Rgb);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Coverage {
     /// Colours are developed as those of whole pixels, and keep their alpha.
     Kept,
     /// The alpha says nothing: the picture is opaque.
     LeftOut,
     /// The picture lies over light of this colour, and is opaque.
-    Over([f32; 3], StoredAlpha),
+    Over([f32; 3]),
 }
 
-/// What the alpha of a picture was seen to be.
+/// What the alpha of a picture was seen to be, all of it before anything is developed.
+///
+/// ```
+/// use std::io::Cursor;
+/// use onelight::picture::{Limits, Picture, Source, open};
+/// use onelight::{Coverage, CoverageSeen};
+/// # let glow = Picture { alpha: Some(vec![1.0, 1.0, 0.0]), ..Picture::opaque(3, 1, vec![[0.2; 3]; 3], Source::Exr) };
+/// # let mut file = Cursor::new(Vec::new());
+/// # glow.write_exr(&mut file, &[])?;
+/// // Light where nothing is covered, as of a flame.
+/// let mut picture = open(file, "glow.exr", Limits::default())?;
+/// let mut seen = CoverageSeen::default();
+/// while let Some(band) = picture.next_band()? {
+///     seen.add(band);
+/// }
+/// let (coverage, notes) = seen.decide(picture.description(), None);
+/// assert_eq!(coverage, Coverage::Over([0.0; 3]));
+/// assert!(notes[0].text.starts_with("1 of 3 pixels are light without coverage"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct CoverageSeen {
+pub struct CoverageSeen {
     pixels: usize,
     /// Alpha above 0.
     covered: usize,
@@ -33,7 +73,7 @@ pub(super) struct CoverageSeen {
 
 impl CoverageSeen {
     /// Adds what a band shows.
-    pub(super) fn add(&mut self, band: &Band) {
+    pub fn add(&mut self, band: &Band) {
         let Some(alpha) = band.alpha() else { return };
         let rows = band.rgb().par_chunks(band.width().max(1)).zip(alpha.par_chunks(band.width().max(1)));
         let seen = rows.map(|(rgb, alpha)| {
@@ -49,7 +89,8 @@ impl CoverageSeen {
     }
 
     /// Whether every pixel is covered, at least in part.
-    pub(super) fn covers_all(&self) -> bool {
+    #[must_use]
+    pub fn covers_all(&self) -> bool {
         self.covered == self.pixels
     }
 
@@ -63,46 +104,47 @@ impl CoverageSeen {
         }
     }
 
-    /// What to do with it; `notes` gets what the user should know.
-    pub(super) fn decide(
-        self,
-        picture: &Description,
-        background: Option<Background>,
-        notes: &mut Vec<String>,
-    ) -> Coverage {
+    /// What to do with it, by the background that was named, and what the user should know.
+    #[must_use]
+    pub fn decide(self, picture: &Description, background: Option<Background>) -> (Coverage, Vec<LightNote>) {
+        let mut notes = Vec::new();
+        let mut note = |text: String, decided_by| notes.push(LightNote { text, decided_by });
         if self.hard > 0 {
-            notes.push(format!("the alpha of {} pixels is NaN or infinite", self.hard));
+            note(format!("the alpha of {} pixels is NaN or infinite", self.hard), None);
         }
-        match background {
+        let coverage = match background {
             Some(Background::None) => Coverage::Kept,
-            Some(Background::Light(light)) => Coverage::Over(light, picture.stored_alpha),
+            Some(Background::Light(light)) => Coverage::Over(light),
             None if self.covered == 0 && self.uncovered_light > 0 => {
-                notes.push("the alpha is 0 everywhere, over colour: the picture counts as opaque".to_owned());
+                note("the alpha is 0 everywhere, over colour: the picture counts as opaque".to_owned(), None);
                 Coverage::LeftOut
             }
             // Where colours are stored straight, those that nothing covers are leftovers.
             None if self.uncovered_light > 0 && picture.stored_alpha == StoredAlpha::Premultiplied => {
-                notes.push(format!(
+                let sentence = format!(
                     "{} of {} pixels are light without coverage (glow, flames, glass): the picture is developed over black \
-                     and is opaque (--background chooses another, none keeps the alpha)",
+                     and is opaque",
                     self.uncovered_light, self.pixels
-                ));
-                Coverage::Over([0.0; 3], picture.stored_alpha)
+                );
+                note(sentence, Some(LightSetting::Background));
+                Coverage::Over([0.0; 3])
             }
             None => Coverage::Kept,
-        }
+        };
+        (coverage, notes)
     }
 }
 
 impl Coverage {
     /// What a pixel holds after it.
-    pub(super) fn channels(self, picture: &Description) -> Channels {
+    #[must_use]
+    pub fn channels(self, picture: &Description) -> Channels {
         if self == Self::Kept { picture.channels } else { Channels::Rgb }
     }
 
     /// Lays a row of linear light over what is behind it.
-    pub(super) fn apply(self, row: &mut RowMut<'_>) {
-        let (Self::Over(behind, stored), Some(alpha)) = (self, &row.alpha) else { return };
+    pub(crate) fn apply(self, row: &mut RowMut<'_>, stored: StoredAlpha) {
+        let (Self::Over(behind), Some(alpha)) = (self, &row.alpha) else { return };
         for (rgb, alpha) in row.rgb.iter_mut().zip(alpha.iter()) {
             let covers = if alpha.is_finite() { alpha.clamp(0.0, 1.0) } else { 0.0 };
             // Readers leave light without coverage as it is stored.
