@@ -124,6 +124,8 @@ mod picture_colours;
 mod picture_coverage;
 #[cfg(feature = "picture")]
 mod picture_light;
+#[cfg(feature = "picture")]
+mod picture_notes;
 mod positive;
 mod process;
 mod process_keys;
@@ -167,9 +169,9 @@ pub use picture_colours::{colour_tag, space_of};
 #[cfg(feature = "picture")]
 pub use picture_coverage::{Background, Coverage, CoverageSeen};
 #[cfg(feature = "picture")]
-pub use picture_light::{
-    InputColours, InputPrimaries, InputWhite, LightNote, LightSeen, LightSetting, PictureLight, SceneStep,
-};
+pub use picture_light::{InputColours, InputPrimaries, InputWhite, LightSeen, PictureLight, SceneStep};
+#[cfg(feature = "picture")]
+pub use picture_notes::{LightNote, LightSetting};
 pub use process::{
     Approach, ColourSpaces, DEFAULT_CAMERA, DEFAULT_PRINT, DEFAULT_SILVER_PRINT, EffectChoice, Effects, FilmProcess,
     FirstControls, FirstProcess, InterImageChoice, OwnSheet, PrintAlone, Printing, Process, StockRef, ToneMapping,

@@ -3,7 +3,7 @@
 use onelight_picture::{Band, Channels, Description, RowMut, StoredAlpha};
 use rayon::prelude::*;
 
-use crate::picture_light::{LightNote, LightSetting};
+use crate::picture_notes::{LightNote, LightSetting};
 
 /// Light without coverage counts from here on: a thousandth of white, below which is the noise of renderers.
 const SEEN: f32 = 1e-3;

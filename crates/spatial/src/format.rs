@@ -67,6 +67,16 @@ impl FilmFormat {
         Ok(Self::Width(Millimetres(checked("width of the frame on film", mm, WIDTHS_MM, " mm")?)))
     }
 
+    /// The formats that have a name, with it.
+    ///
+    /// ```
+    /// use onelight_spatial::FilmFormat;
+    /// assert!(FilmFormat::named().any(|(name, format)| name == "super8" && format.width_mm() == 5.79));
+    /// ```
+    pub fn named() -> impl Iterator<Item = (&'static str, Self)> {
+        NAMES.into_iter()
+    }
+
     /// Width of the frame in mm.
     #[must_use]
     pub fn width_mm(self) -> f64 {

@@ -3,11 +3,16 @@
 /** A printer point is 0.025 log10 exposure. */
 const POINTS = { low: -24, high: 24, step: 1 };
 
+/** Effects, which share their words. */
+const EFFECTS = ["grain", "sharpness", "halation"];
+
 export class Controls {
-  constructor(state, choices, list, more) {
-    Object.assign(this, { state, choices });
+  constructor(state, choices, films, { list, film, more }) {
+    Object.assign(this, { state, choices, films });
     this.updates = [];
     list.append(
+      this.variant("camera", "Development", "Of the camera film: each time or process is a sheet of its own, with its own contrast."),
+      this.variant("print", "Grade", "Of the paper: a harder one has more contrast."),
       this.exposure(),
       this.sceneWhite(),
       this.points(),
@@ -16,6 +21,15 @@ export class Controls {
       this.words("white", "White", "What counts as white: the clear film, as an eye adapts to it, or the bare lamp, which leaves film's warm tint."),
       this.interImage(),
       this.overexposure(),
+    );
+    const format = (key, name, help) => this.ofFormat(this.words(key, name, help), key);
+    film.append(
+      this.words("film_format", "Film format", "How large the picture is on the film: the smaller, the coarser its grain. None leaves all three out.", ["none", "sharpness, halation and grain are left out"]),
+      format("grain", "Grain", "Dye clouds. Auto runs it where it can be seen: below the picture is said why not."),
+      format("sharpness", "Sharpness", "Light scatters in the film, developing layers sharpen edges: both within some hundredths of a millimetre."),
+      format("halation", "Halation", "Light that returns from the film's back makes red rims about lamps. No sheet states how much."),
+      this.antihalation(),
+      this.seed(),
     );
     more.append(
       this.words("projector", "Seen by", "The light behind or on the film: it shifts all colours together."),
@@ -93,24 +107,56 @@ export class Controls {
     const select = element("select", { id: "interimage" });
     for (const [value, textContent] of words) select.append(element("option", { value, textContent }));
     select.addEventListener("change", () => this.attempt({ interimage: select.value }));
-    this.updates.push((keys) => {
-      const own = words.some(([word]) => word === keys.interimage);
-      let option = select.querySelector("[data-own]");
-      if (!own) {
-        option ??= select.appendChild(element("option"));
-        Object.assign(option, { value: keys.interimage, textContent: keys.interimage });
-        option.dataset.own = "";
-      } else option?.remove();
-      select.value = keys.interimage;
-    });
+    this.updates.push((keys) => show(select, keys.interimage));
     return control("Between layers", "interimage", select, "Layers that develop hold back their neighbours: colours grow purer. Most of film's saturation comes from here.");
   }
 
-  words(key, name, help) {
-    const select = element("select", { id: key });
-    for (const { word, help } of this.choices[key]) select.append(element("option", { value: word, textContent: `${word}: ${help}` }));
+  /** Disables a control of the film format where there is none, or `also` says so. */
+  ofFormat(box, key, also = () => false) {
+    this.updates.push((keys) => box.querySelectorAll("input, select").forEach((input) => (input.disabled = keys.film_format === "none" || also(keys))));
+    return box;
+  }
+
+  antihalation() {
+    const density = (keys) => (keys.antihalation === "none" ? 0 : Number(keys.antihalation));
+    const set = (value) => this.state.set({ antihalation: value === 0 ? "none" : String(value) });
+    const turn = this.slider("antihalation", { low: 0, high: 3, step: 0.1 }, set, density, "Density of the antihalation layer");
+    const box = control("Antihalation layer", "antihalation", turn, "Density of the layer that swallows halation; 0 is film without it, with wide red rims.");
+    return this.ofFormat(box, "antihalation", (keys) => keys.halation === "off");
+  }
+
+  seed() {
+    const set = (value) => this.state.set({ seed: Math.round(value) });
+    const turn = this.slider("seed", { low: 0, high: 99, step: 1 }, set, (keys) => keys.seed, "Seed of the grain");
+    return this.ofFormat(control("Pattern of the grain", "seed", turn, "Another number, another pattern; its size stays."), "seed", (keys) => keys.grain === "off");
+  }
+
+  /** Development times and grades, where a film has several. */
+  variant(key, name, help) {
+    const select = element("select", { id: `${key}-variant` });
     select.addEventListener("change", () => this.attempt({ [key]: select.value }));
-    this.updates.push((keys) => (select.value = keys[key]));
+    const box = control(name, `${key}-variant`, select, help);
+    let listed;
+    this.updates.push((keys) => {
+      const [id] = keys[key].split("@");
+      const variants = this.films.find((film) => film.id === id)?.variants ?? [];
+      box.hidden = variants.length === 0;
+      if (listed !== id) {
+        listed = id;
+        const options = [[id, "the usual"], ...variants.map((variant) => [`${id}@${variant}`, variant])];
+        select.replaceChildren(...options.map(([value, textContent]) => element("option", { value, textContent })));
+      }
+      show(select, keys[key]);
+    });
+    return box;
+  }
+
+  words(key, name, help, first = undefined) {
+    const select = element("select", { id: key });
+    if (first) select.append(element("option", { value: first[0], textContent: `${first[0]}: ${first[1]}` }));
+    for (const { word, help } of this.choices[EFFECTS.includes(key) ? "effect" : key]) select.append(element("option", { value: word, textContent: `${word}: ${help}` }));
+    select.addEventListener("change", () => this.attempt({ [key]: select.value }));
+    this.updates.push((keys) => show(select, keys[key]));
     return control(name, key, select, help);
   }
 
@@ -152,6 +198,16 @@ export class Controls {
 
 export function element(tag, properties = {}) {
   return Object.assign(document.createElement(tag), properties);
+}
+
+/** Shows a value; one that is not among those offered, as a link may hold, is added as it is. */
+function show(select, value) {
+  select.querySelector("[data-own]")?.remove();
+  if (![...select.options].some((option) => option.value === value)) {
+    const own = select.appendChild(element("option", { value, textContent: value }));
+    own.dataset.own = "";
+  }
+  select.value = value;
 }
 
 function control(name, id, turn, help) {

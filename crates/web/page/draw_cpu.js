@@ -32,7 +32,7 @@ export class CpuRenderer {
   /** Draws with a look; false where a newer frame came first. */
   async draw(look, ev) {
     const [turn, [width, height], bands] = [++this.drawn, this.size, this.bands];
-    const parts = bands.map(({ thread }) => thread.withLook("develop", look, { name: this.name, ev }));
+    const parts = bands.map(({ thread }) => thread.develop(look, { name: this.name, ev }));
     const codes = await Promise.all(parts);
     if (turn !== this.drawn) return false;
     if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });

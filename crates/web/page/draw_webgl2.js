@@ -63,13 +63,13 @@ export class WebGl2Renderer {
     this.size = [width, height];
   }
 
-  async draw({ key, direct }, ev) {
+  async draw({ key, packed }, ev) {
     const { gl, canvas, size } = this;
     const [width, height] = size;
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     gl.viewport(0, 0, width, height);
     if (this.shown !== key) {
-      const bytes = lookBytes(direct);
+      const bytes = lookBytes(packed);
       gl.bindBuffer(gl.UNIFORM_BUFFER, this.look);
       gl.bufferSubData(gl.UNIFORM_BUFFER, 0, bytes, 0, UNIFORM);
       gl.activeTexture(gl.TEXTURE0);

@@ -64,10 +64,10 @@ export class WebGpuRenderer {
   }
 
   /** The look on the card. */
-  look({ key, direct }) {
+  look({ key, packed }) {
     let made = this.looks.get(key);
     if (made) return made.group;
-    const bytes = lookBytes(direct);
+    const bytes = lookBytes(packed);
     const { device } = this;
     const buffer = device.createBuffer({ size: UNIFORM, usage: GPUBufferUsage.UNIFORM | GPUBufferUsage.COPY_DST });
     device.queue.writeBuffer(buffer, 0, bytes, 0, UNIFORM);

@@ -1,6 +1,6 @@
 // The darkroom: puts the parts together.
 
-import { initSync, offered } from "./onelight_web.js";
+import { initSync, offered, Shipped } from "./onelight_web.js";
 import { Controls, element } from "./controls.js";
 import { CpuRenderer } from "./draw_cpu.js";
 import { WebGl2Renderer } from "./draw_webgl2.js";
@@ -30,7 +30,7 @@ class Darkroom {
   async start() {
     const [wasm, shipped, scene] = await Promise.all([
       fetched("onelight_web_bg.wasm").then((answer) => answer.arrayBuffer()),
-      fetched("looks.json").then((answer) => answer.json()),
+      fetched("looks.bin").then((answer) => answer.arrayBuffer()),
       fetched("scene.exr").then((answer) => answer.blob()),
     ]);
     const module = await WebAssembly.compile(wasm);
@@ -40,18 +40,18 @@ class Darkroom {
     const { films, choices } = JSON.parse(offered());
     this.films = films;
     this.state = new State();
-    this.looks = new Looks(this.pool, shipped);
+    this.looks = new Looks(this.pool, new Shipped(new Uint8Array(shipped)));
     try {
       if (location.hash.length > 1) this.state.follow(location.hash);
     } catch (error) {
       this.late = `The link's look cannot be read: ${error.message}`;
     }
-    this.controls = new Controls(this.state, choices, $("control-list"), $("more-list"));
+    this.controls = new Controls(this.state, choices, films, { list: $("control-list"), film: $("film-list"), more: $("more-list") });
     this.controls.auto = () => this.picture?.seen.auto_ev ?? 0;
     this.strip = new Strip(films, this.state, this.looks, this.pool);
     this.take = new Take(this.state, this.looks, this.pool, choices.for, say);
     this.controls.failed = this.strip.failed = (error) => say(error.message, true);
-    const elements = { stage: $("stage"), film: $("film"), other: $("other"), mark: $("mark"), splitter: $("split") };
+    const elements = { stage: $("stage"), film: $("film"), grain: $("grained"), other: $("other"), mark: $("mark"), splitter: $("split") };
     this.view = new View(elements, this.pool);
     await this.view.start(renderers());
     for (const film of films.filter((film) => film.is_camera)) $("beside").append(element("option", { value: film.id, textContent: film.name }));
@@ -84,7 +84,12 @@ class Darkroom {
     $("undo").addEventListener("click", () => this.state.undo());
     $("redo").addEventListener("click", () => this.state.redo());
     $("reset").addEventListener("click", () => this.state.reset());
+    $("to-take").addEventListener("click", () => {
+      $("take").scrollIntoView();
+      $("kind").focus({ preventScroll: true });
+    });
     $("zoom").addEventListener("change", ({ target }) => this.view.zoomTo(Number(target.value)));
+    $("behind").addEventListener("change", ({ target }) => this.opened && this.open(this.opened, false, target.value));
     $("beside").addEventListener("change", ({ target }) => this.compare(target.value));
     addEventListener("dragover", (event) => {
       event.preventDefault();
@@ -114,6 +119,16 @@ class Darkroom {
     this.changed({ keys: false });
   }
 
+  /** What is in the camera, and what it is printed on. */
+  filmName() {
+    const { camera, print } = this.state.keys;
+    const name = (id) => {
+      const film = this.films.find((film) => film.id === id.split("@")[0]);
+      return film?.name ?? id;
+    };
+    return print === "none" ? name(camera) : `${name(camera)} on ${name(print)}`;
+  }
+
   drawnBy() {
     $("drawn-by").textContent = `drawn by the ${this.view.drawnBy}`;
   }
@@ -138,24 +153,29 @@ class Darkroom {
   }
 
   /** Opens a picture; what was there stays until the new one is whole. */
-  async open(file, first = false) {
+  async open(file, first = false, behind = "") {
     const turn = (this.opening = (this.opening ?? 0) + 1);
     say(`${file.name} is read ...`);
     const began = performance.now();
     try {
       const bytes = await file.arrayBuffer();
-      const asked = { file: bytes, name: file.name, space: this.state.keys.input_space };
+      const asked = { file: bytes, name: file.name, space: this.state.keys.input_space, behind };
       const progress = (done) => turn === this.opening && say(`${file.name} is read: ${Math.round(100 * done)} % ...`);
       const picture = await this.pool.reader.ask("open", asked, [bytes], progress);
       if (turn !== this.opening) return;
+      const again = this.opened === file;
       this.picture = picture;
-      this.take.opened = { file, name: file.name };
+      this.opened = file;
+      this.take.opened = { file, name: file.name, behind };
       await this.view.open(picture);
       $("zoom").value = "0";
       // A finished picture has its exposure; a scene's light may lie anywhere.
-      if (!first && Math.abs(picture.seen.auto_ev) > 4) this.state.set({ ev: +picture.seen.auto_ev.toFixed(2) }, "auto");
+      if (!first && !again && Math.abs(picture.seen.auto_ev) > 4) this.state.set({ ev: +picture.seen.auto_ev.toFixed(2) }, "auto");
       await this.updateLook();
-      const { width, height, notes } = picture.described;
+      const { width, height, notes, has_alpha } = picture.described;
+      if (picture.seen.hard) notes.push(`${picture.seen.hard} pixels hold NaN or infinity: NaN counts as 0, infinity as very bright.`);
+      $("behind-label").hidden = !has_alpha;
+      $("behind").value = behind;
       $("size").textContent = `${file.name}, ${width} x ${height}`;
       $("notes").replaceChildren(...notes.map((note) => element("li", { textContent: note })));
       $("way-list").replaceChildren();
@@ -172,8 +192,8 @@ class Darkroom {
   changed({ keys }) {
     $("undo").disabled = this.state.past.length === 0;
     $("redo").disabled = this.state.future.length === 0;
+    $("film-name").textContent = this.filmName();
     history.replaceState(null, "", `#${this.state.hash}`);
-    $("effects").hidden = (this.state.keys.film_format ?? "none") === "none";
     if (keys) {
       this.updateLook();
       if (this.beside && this.beside !== "none") this.compare(this.beside);
@@ -188,7 +208,7 @@ class Darkroom {
       while (this.lookWanted) {
         this.lookWanted = false;
         try {
-          this.look = await this.looks.ready(this.looks.of(this.state.keys), true);
+          this.look = await this.looks.live(this.looks.of(this.state.keys));
         } catch (error) {
           if (!this.lookWanted) say(error.message, true);
           continue;
@@ -209,6 +229,7 @@ class Darkroom {
         this.frameWanted = false;
         const began = performance.now();
         try {
+          this.view.withoutEffects();
           await this.view.draw(this.look, this.state.ev);
         } catch (error) {
           if (!(error instanceof Cancelled)) say(error.message, true);
@@ -226,16 +247,39 @@ class Darkroom {
   beginSlow() {
     clearTimeout(this.slow);
     this.slow = setTimeout(() => {
-      this.showHistogram();
       if (this.view.point) this.showWay();
+      this.showHistogram();
+      this.showEffects();
     }, 120);
+  }
+
+  /** Sharpness, halation and grain of the film format, over the colours that are there. */
+  async showEffects() {
+    const { keys, ev } = this.state.now;
+    const list = $("effects");
+    if ((keys.film_format ?? "none") === "none" || !this.look || !this.picture) {
+      list.replaceChildren();
+      return;
+    }
+    const frame = this.frames;
+    if (!list.childElementCount) list.replaceChildren(element("li", { textContent: "Grain, sharpness and halation are looked for ..." }));
+    try {
+      const { reasons, size } = await this.view.effects(this.look, JSON.stringify(keys), ev, () => frame === this.frames);
+      if (frame !== this.frames) return;
+      const lines = reasons.split("\n").filter(Boolean).map((line) => `${line.replace(/^./, (c) => c.toUpperCase())}.`);
+      if (size !== 1) lines.unshift(`The whole picture is shown ${size.toFixed(1)} times smaller: its pixels stand for larger pieces of film, whose grain is finer. 1 : 1 shows what is saved.`);
+      list.replaceChildren(...lines.map((line) => element("li", { textContent: line })));
+      document.documentElement.dataset.effects = String(frame);
+    } catch (error) {
+      if (!(error instanceof Cancelled)) say(error.message, true);
+    }
   }
 
   async showHistogram() {
     const [look, seen] = [this.look, this.picture?.seen];
     if (!look || !seen) return;
     try {
-      look.grey ??= await this.pool.idlest.withLook("way", look, { rgb: [0.18, 0.18, 0.18] });
+      look.grey ??= await this.pool.reader.withFilm("way", look, look.key, { rgb: [0.18, 0.18, 0.18] });
       if (look === this.look) showHistogram($("histogram"), seen, look.grey, this.state.ev);
     } catch (error) {
       say(error.message, true);
@@ -246,7 +290,7 @@ class Darkroom {
     const ev = this.state.ev;
     const rgb = this.view.lightAt(this.view.point).map((v) => v * 2 ** ev);
     try {
-      const way = await this.pool.idlest.withLook("way", this.look, { rgb });
+      const way = await this.pool.reader.withFilm("way", this.look, this.look.key, { rgb });
       showWay($("way-list"), way, ev);
       $("way-hint").textContent = `The pixel at ${this.view.point.join(", ")}. Click on another, or move with the arrow keys and press Enter.`;
     } catch (error) {

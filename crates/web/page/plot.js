@@ -11,7 +11,7 @@ export function svg(tag, attributes = {}, text = undefined) {
 
 /** A plot of lines over one axis: `lines` of { x, y, kind }, `points` of { x, y, kind }, `marks` of { x, text }. */
 export function plot({ lines = [], points = [], marks = [], label, across, range, up }) {
-  const [width, height, left, bottom] = [320, 170, 34, 26];
+  const [width, height, left, bottom] = [320, 170, 42, 26];
   const all = (axis) => lines.flatMap((line) => line[axis]);
   const [x0, x1] = range ?? [Math.min(...all("x")), Math.max(...all("x"))];
   const [y0, y1] = up ?? [Math.min(0, ...all("y")), Math.max(...all("y"), 1e-9) * 1.05];

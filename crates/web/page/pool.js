@@ -41,12 +41,21 @@ class Thread {
     else asked.reject(new Error(error));
   }
 
-  /** A task that needs a look, whose direct form goes along the first time. */
+  /** Develops pixels that were kept; the look's form goes along the first time. */
+  develop(look, args) {
+    return this.withLook("develop", look, args);
+  }
+
+  /** A task that needs a look with its film: `all` its keys. */
+  withFilm(task, look, all, args, transfer, progress) {
+    return this.ask(task, { all, packed: look.packed, ...args }, transfer, progress);
+  }
+
   withLook(task, look, args, transfer, progress) {
     const known = this.looks.delete(look.key);
     this.looks.add(look.key);
     if (this.looks.size > MOST_KNOWN) this.looks.delete(this.looks.values().next().value);
-    const sent = { key: look.key, keys: look.keys, direct: known ? undefined : look.direct };
+    const sent = { key: look.key, packed: known ? undefined : look.packed };
     const answer = this.ask(task, { ...sent, ...args }, transfer, progress);
     answer.catch(() => this.looks.delete(look.key));
     return answer;
@@ -66,7 +75,10 @@ class Thread {
 /** What a task ends with when it was cancelled. */
 export class Cancelled extends Error {}
 
-/** Threads that draw, threads that fit looks, one that reads pictures, one for what takes long, and a spare for when that is cancelled. */
+/**
+ * Threads that draw, threads that fit looks, one for the look that is shown, one that reads pictures, runs effects and says where colours come
+ * from, one for what takes long, and a spare for when that is cancelled.
+ */
 export class Pool {
   constructor(module) {
     this.module = module;
@@ -74,6 +86,7 @@ export class Pool {
     const threads = (count) => Array.from({ length: count }, () => new Thread(module));
     this.threads = threads(count);
     this.fitters = threads(count >> 1);
+    this.live = new Thread(module);
     this.reader = new Thread(module);
     this.long = new Thread(module);
     this.spare = new Thread(module);
@@ -81,7 +94,7 @@ export class Pool {
   }
 
   get ready() {
-    return Promise.all([...this.threads, ...this.fitters, this.reader, this.long, this.spare].map((thread) => thread.ready));
+    return Promise.all([...this.threads, ...this.fitters, this.live, this.reader, this.long, this.spare].map((thread) => thread.ready));
   }
 
   /** The drawing thread with the least to do. */
@@ -89,26 +102,19 @@ export class Pool {
     return this.threads.reduce((least, thread) => (thread.load < least.load ? thread : least));
   }
 
-  /** The direct form of a look, once its turn comes: see `want`. */
-  fit(look) {
-    return new Promise((resolve, reject) => this.wanted.push({ look, resolve, reject, still: [] }));
-  }
-
-  /** Says how much a look that is to be fitted is wanted: urgent ones come first; `still` says whether it is when its turn comes. */
-  want(look, urgent, still) {
-    const at = this.wanted.findIndex((entry) => entry.look === look);
-    if (at >= 0) {
-      this.wanted[at].still.push(still);
-      if (urgent) this.wanted.unshift(...this.wanted.splice(at, 1));
-    }
-    this.more();
+  /** The packed form of a look, once its turn comes, those that can be seen first: `still` says whether it is wanted when its turn comes. */
+  fit(request, still) {
+    return new Promise((resolve, reject) => {
+      this.wanted.push({ request, still, resolve, reject });
+      this.more();
+    });
   }
 
   more() {
     for (const thread of this.fitters) {
       while (thread.load === 0 && this.wanted.length > 0) {
-        const { look, still, resolve, reject } = this.wanted.shift();
-        if (still.some((wanted) => wanted())) thread.withLook("fit", look, {}).then(resolve, reject).finally(() => this.more());
+        const { request, still, resolve, reject } = this.wanted.shift();
+        if (still()) thread.ask("fit", request).then(resolve, reject).finally(() => this.more());
         else reject(new Cancelled());
       }
     }

@@ -4,7 +4,7 @@ import { element } from "./controls.js";
 import { Cancelled } from "./pool.js";
 
 /** Films are fitted anew so long after the last turn of a control. */
-const PAUSE_MS = 350;
+const PAUSE_MS = 120;
 
 export class Strip {
   constructor(films, state, looks, pool) {
@@ -82,7 +82,7 @@ export class Strip {
   /** Another picture: every thread gets the small copy. */
   async show({ thumbnail, described }) {
     this.size = described.thumbnail;
-    for (const thread of this.pool.threads) await thread.ask("keep", { name: "thumbnail", light: thumbnail });
+    await Promise.all(this.pool.threads.map((thread) => thread.ask("keep", { name: "thumbnail", light: thumbnail })));
     return this.draw();
   }
 
@@ -108,7 +108,8 @@ export class Strip {
     ];
     tiles.sort((a, b) => this.seen.has(b.button) - this.seen.has(a.button));
     const draw = async (tile) => {
-      const look = await this.looks.ready(this.looks.of(tile.keys), false, still);
+      const exact = this.looks.of(tile.keys);
+      const look = this.looks.quick(exact) ?? (await this.looks.ready(exact, still));
       if (still()) await this.drawTile(tile, look, ev);
     };
     const failed = (tile, error) => {
@@ -120,7 +121,7 @@ export class Strip {
 
   async drawTile({ canvas }, look, ev) {
     const [width, height] = this.size;
-    const codes = await this.pool.idlest.withLook("develop", look, { name: "thumbnail", ev });
+    const codes = await this.pool.idlest.develop(look, { name: "thumbnail", ev });
     if (codes.length !== width * height * 4) return;
     for (let a = 3; a < codes.length; a += 4) codes[a] = 255;
     Object.assign(canvas, { width, height });
@@ -130,7 +131,7 @@ export class Strip {
 
 /** What its data sheet says of a film, in lines. */
 function about(film) {
-  const lines = [`${film.maker} ${film.name}, ${film.year}`, `${film.kind_name}, ${film.process}${film.balance ? `, ${film.balance}` : ""}`, film.sheet];
+  const lines = [`${film.name}, ${film.maker}, ${film.year}`, `${film.kind_name}, ${film.process}${film.balance ? `, ${film.balance}` : ""}`, film.sheet];
   if (film.derived.length) lines.push(`Not published, something stands in: ${film.derived.join(", ")}`);
   if (film.inter_image) lines.push(`Effect between layers: ${film.inter_image}`);
   return lines.join("\n");

@@ -21,14 +21,16 @@ export class Take {
   }
 
   async picture(kind) {
-    const { file, name } = this.opened ?? {};
+    const { file, name, behind } = this.opened ?? {};
     if (!file) return;
     const ending = { png8: "png", png16: "png", tiff16: "tif", jpeg: "jpg", exr: "exr" }[kind];
     const { keys, ev } = this.state.now;
-    await this.long("The picture is developed ...", async () => {
-      const look = await this.looks.ready(this.looks.of(keys), true);
-      const bytes = await this.pool.long.withLook("developFile", look, { file: await file.arrayBuffer(), name, ev, kind });
-      this.offer([{ name: `${name.replace(/\.[^.]*$/, "")}.${keys.camera}.${ending}`, bytes }], true);
+    await this.long("The picture is developed ...", async (progress) => {
+      const look = await this.looks.live(this.looks.of(keys));
+      const bytes = await file.arrayBuffer();
+      const asked = { file: bytes, name, behind, ev, kind };
+      const found = await this.pool.long.withFilm("developFile", look, JSON.stringify(keys), asked, [bytes], progress);
+      this.offer([{ name: `${name.replace(/\.[^.]*$/, "")}.${keys.camera.replace("@", "-")}.${ending}`, bytes: found.bytes }], true, found.reasons);
     });
   }
 

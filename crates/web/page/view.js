@@ -3,6 +3,21 @@
 import { CpuRenderer } from "./draw_cpu.js";
 import { values, withoutFilm } from "./half.js";
 
+/** Pixels around what is shown whose light reaches into it by scatter and halation. */
+const AROUND = 128;
+/** Sizes that are chosen from: the whole picture, and pixels of the screen for one of its own. */
+const SIZES = [0, 1, 2, 4];
+
+/** A rectangle of light in rows of `width` pixels. */
+function cut(light, width, [left, top], size) {
+  const rows = new Uint16Array(size[0] * size[1] * 4);
+  for (let y = 0; y < size[1]; y++) {
+    const from = ((top + y) * width + left) * 4;
+    rows.set(light.subarray(from, from + size[0] * 4), y * size[0] * 4);
+  }
+  return rows;
+}
+
 export class View extends EventTarget {
   constructor(elements, pool) {
     super();
@@ -63,17 +78,44 @@ export class View extends EventTarget {
       const size = [across(this.stage.clientWidth, described.width), across(this.stage.clientHeight, described.height)];
       const most = [described.width - size[0], described.height - size[1]];
       this.at = this.at.map((v, i) => Math.round(Math.min(Math.max(v, 0), most[i])));
-      const cut = new Uint16Array(size[0] * size[1] * 4);
-      for (let y = 0; y < size[1]; y++) {
-        const from = ((this.at[1] + y) * described.width + this.at[0]) * 4;
-        cut.set(light.subarray(from, from + size[0] * 4), y * size[0] * 4);
-      }
-      [this.shown, this.shownSize, this.corner, this.scale] = [cut, size, this.at, 1];
+      [this.shown, this.shownSize, this.corner, this.scale] = [cut(light, described.width, this.at, size), size, [...this.at], 1];
     }
     this.stage.classList.toggle("near", this.zoom > 0);
     await this.renderer.show(this.shown, ...this.shownSize);
     if (this.besideLook) await this.otherRenderer.show(this.shown, ...this.shownSize);
     this.fit();
+  }
+
+  /** What is shown, with light from around it that its film sees too; and where it lies in the frame. */
+  part() {
+    const { described, light } = this.picture;
+    const { frame_width, at, pixel_aspect: aspect } = described;
+    if (this.zoom === 0) {
+      const near = at.map((v) => Math.round(v / this.scale));
+      return { light: this.shown.slice(), size: this.shownSize, at: near, frameWidth: Math.max(1, Math.round(frame_width / this.scale)), aspect, inner: [0, 0] };
+    }
+    const first = this.corner.map((v) => Math.max(0, v - AROUND));
+    const end = [described.width, described.height].map((side, i) => Math.min(side, this.corner[i] + this.shownSize[i] + AROUND));
+    const size = end.map((v, i) => v - first[i]);
+    return { light: cut(light, described.width, first, size), size, at: at.map((v, i) => v + first[i]), frameWidth: frame_width, aspect, inner: this.corner.map((v, i) => v - first[i]) };
+  }
+
+  withoutEffects() {
+    this.grain.hidden = true;
+  }
+
+  /** Draws the film's effects over its colours, if any is run and nothing came meanwhile; why each is or is not. */
+  async effects(look, all, ev, still) {
+    const { inner, ...part } = this.part();
+    const [shown, scale] = [this.shownSize, this.scale];
+    const { codes, reasons } = await this.pool.reader.withFilm("onFilm", look, all, { ...part, ev }, [part.light.buffer]);
+    if (codes && still()) {
+      const pixels = new ImageData(new Uint8ClampedArray(codes.buffer, codes.byteOffset, codes.length), ...part.size);
+      Object.assign(this.grain, { width: shown[0], height: shown[1] });
+      this.grain.getContext("2d").putImageData(pixels, -inner[0], -inner[1]);
+      this.grain.hidden = false;
+    }
+    return { reasons, size: scale };
   }
 
   /** Draws; true once the newest frame is on the screen. */
@@ -93,7 +135,7 @@ export class View extends EventTarget {
       withoutFilm(this.shown, ev, codes);
       Object.assign(this.other, { width, height });
       this.other.getContext("2d").putImageData(new ImageData(codes, width, height), 0, 0);
-    } else if (this.besideLook?.direct) {
+    } else if (this.besideLook?.packed) {
       await this.otherRenderer.draw(this.besideLook, ev);
     }
   }
@@ -157,6 +199,12 @@ export class View extends EventTarget {
     return on.map((v, i) => this.corner[i] + (v / this.cssScale) * this.scale);
   }
 
+  /** The next size up or down, about a pixel. */
+  step(by, around) {
+    const next = SIZES[SIZES.indexOf(this.zoom) + by];
+    if (next !== undefined) this.zoomTo(next, around);
+  }
+
   async zoomTo(zoom, around) {
     if (!this.picture) return;
     const { width, height } = this.picture.described;
@@ -172,12 +220,33 @@ export class View extends EventTarget {
 
   watch() {
     let drag;
+    const fingers = new Map();
+    let pinch;
+    const apart = () => {
+      const [a, b] = [...fingers.values()];
+      return Math.hypot(a[0] - b[0], a[1] - b[1]);
+    };
     this.stage.addEventListener("pointerdown", (event) => {
+      if (event.pointerType === "touch") fingers.set(event.pointerId, [event.clientX, event.clientY]);
+      if (fingers.size === 2 && this.picture) {
+        [pinch, drag] = [apart(), undefined];
+        return;
+      }
       if (!this.picture || this.splitter.contains(event.target) || event.button !== 0) return;
       drag = { from: [event.clientX, event.clientY], at: [...this.at], moved: false };
       this.stage.setPointerCapture(event.pointerId);
     });
     this.stage.addEventListener("pointermove", async (event) => {
+      if (fingers.has(event.pointerId)) fingers.set(event.pointerId, [event.clientX, event.clientY]);
+      if (pinch && fingers.size === 2) {
+        const ratio = apart() / pinch;
+        if (ratio > 1.4 || ratio < 0.7) {
+          pinch = apart();
+          const [a, b] = [...fingers.values()];
+          this.step(ratio > 1 ? 1 : -1, this.pixelOf({ clientX: (a[0] + b[0]) / 2, clientY: (a[1] + b[1]) / 2 }));
+        }
+        return;
+      }
       if (!drag) return;
       const by = [event.clientX - drag.from[0], event.clientY - drag.from[1]];
       drag.moved ||= Math.hypot(...by) > 4;
@@ -187,7 +256,12 @@ export class View extends EventTarget {
         this.dispatchEvent(new Event("moved"));
       }
     });
+    const lifted = (event) => {
+      fingers.delete(event.pointerId);
+      if (fingers.size < 2) pinch = undefined;
+    };
     this.stage.addEventListener("pointerup", (event) => {
+      lifted(event);
       const clicked = drag && !drag.moved;
       drag = undefined;
       if (!clicked) return;
@@ -195,16 +269,17 @@ export class View extends EventTarget {
       const inside = event.clientX >= box.left && event.clientX < box.right && event.clientY >= box.top && event.clientY < box.bottom;
       if (inside) this.pick(this.pixelOf(event));
     });
-    this.stage.addEventListener("pointercancel", () => (drag = undefined));
+    this.stage.addEventListener("pointercancel", (event) => {
+      lifted(event);
+      drag = undefined;
+    });
     this.stage.addEventListener("dblclick", (event) => this.zoomTo(this.zoom ? 0 : 1, this.pixelOf(event)));
     this.stage.addEventListener(
       "wheel",
       (event) => {
         if (!this.picture || !event.ctrlKey) return;
         event.preventDefault();
-        const steps = [0, 1, 2, 4];
-        const next = steps[steps.indexOf(this.zoom) + (event.deltaY < 0 ? 1 : -1)];
-        if (next !== undefined) this.zoomTo(next, this.pixelOf(event));
+        this.step(event.deltaY < 0 ? 1 : -1, this.pixelOf(event));
       },
       { passive: false },
     );
@@ -241,6 +316,8 @@ export class View extends EventTarget {
       const from = this.point ?? [width / 2, height / 2];
       this.point = [width, height].map((side, i) => Math.min(Math.max(Math.round(from[i] + step[i] * size), 0), side - 1));
       this.place();
+    } else if (event.key === "+" || event.key === "-") {
+      this.step(event.key === "+" ? 1 : -1, this.point ?? [width / 2, height / 2]);
     } else if (event.key === "Enter") {
       this.pick(this.point ?? [width / 2, height / 2]);
     }

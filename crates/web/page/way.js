@@ -67,7 +67,7 @@ export function showHistogram(place, seen, grey, ev) {
     all += pixels;
     if (stops + width / 2 < ends[0] || stops + width / 2 > ends[1]) outside += pixels;
     if (stops < low || stops + width > high || !pixels) continue;
-    const px = (s) => 34 + ((s - low) / (high - low)) * 278;
+    const px = (s) => 42 + ((s - low) / (high - low)) * 270;
     const tall = Math.min(pixels / largest, 1) * 128;
     d += `M${px(stops).toFixed(1)} 144v${(-tall).toFixed(1)}h${(px(stops + width) - px(stops) - 0.5).toFixed(1)}V144Z`;
   }

@@ -1,30 +1,42 @@
 // One thread of the darkroom: reads pictures, fits looks, develops pixels. It is asked one thing at a time.
 
-import { initSync, Files, Look, Picture, __wbg_reset_state } from "./onelight_web.js";
+import { initSync, Files, Form, Look, Moving, Picture, __wbg_reset_state } from "./onelight_web.js";
 
-/** Looks that were made, the last one used at the end. */
-const looks = new Map();
-/** Most looks that are kept: each takes about 60 KB. */
-const MOST_LOOKS = 96;
+/** What was made, the last one used at the end; what is too much is freed. */
+class Kept extends Map {
+  constructor(most) {
+    super();
+    this.most = most;
+  }
+
+  of(key, make) {
+    let made = this.get(key);
+    if (made) {
+      this.delete(key);
+    } else {
+      made = make();
+      if (this.size >= this.most) {
+        const [oldest, old] = this.entries().next().value;
+        this.delete(oldest);
+        old.free();
+      }
+    }
+    this.set(key, made);
+    return made;
+  }
+}
+
+/** Forms that develop pixels, by the keys of their colours: each takes about 60 KB. */
+const forms = new Kept(96);
+/** Looks with their film, by all their keys. */
+const looks = new Kept(4);
+/** Films that follow the controls, by their names. */
+const moving = new Kept(12);
 /** Pixels that were left here to be developed again, by their name. */
 const lights = new Map();
 
-/** The look of these keys, with its direct form where the page knows it. */
-function look({ key, keys, direct }) {
-  let made = looks.get(key);
-  if (made) {
-    looks.delete(key);
-  } else {
-    made = new Look(keys, direct ?? undefined);
-    if (looks.size >= MOST_LOOKS) {
-      const [oldest, old] = looks.entries().next().value;
-      looks.delete(oldest);
-      old.free();
-    }
-  }
-  looks.set(key, made);
-  return made;
-}
+const form = ({ key, packed }) => forms.of(key, () => new Form(packed));
+const look = ({ all, packed }) => looks.of(all, () => new Look(all, packed));
 
 const tasks = {
   start({ module }) {
@@ -32,8 +44,8 @@ const tasks = {
   },
 
   /** Takes a file apart: all of its light, two smaller copies, and what is said of it. */
-  open({ file, name, space }) {
-    const picture = new Picture(new Uint8Array(file), name, space);
+  open({ file, name, space, behind }) {
+    const picture = new Picture(new Uint8Array(file), name, space, behind);
     try {
       const described = JSON.parse(picture.described());
       const light = new Uint16Array(described.width * described.height * 4);
@@ -51,14 +63,10 @@ const tasks = {
     }
   },
 
-  /** Fits a look, and gives its direct form to be handed to others. */
-  fit({ keys }) {
-    const made = new Look(keys);
-    try {
-      return made.directJson();
-    } finally {
-      made.free();
-    }
+  /** The packed form of a look; `usual` is that of its films' usual look, if the page has it. */
+  fit({ keys, films, usual }) {
+    const packed = moving.of(films, () => new Moving(keys, usual)).form(keys);
+    return [packed, [packed.buffer]];
   },
 
   /** Keeps pixels under a name. */
@@ -69,7 +77,7 @@ const tasks = {
   /** Display codes of pixels that were kept. */
   develop(asked) {
     const light = lights.get(asked.name);
-    const codes = light ? look(asked).develop(light, asked.ev) : new Uint8Array();
+    const codes = light ? form(asked).develop(light, asked.ev) : new Uint8Array();
     return [codes, [codes.buffer]];
   },
 
@@ -78,10 +86,22 @@ const tasks = {
     return JSON.parse(look(asked).way(...asked.rgb));
   },
 
+  /** A rectangle of light with sharpness, halation and grain, and why each is run or not. */
+  onFilm(asked) {
+    const { light, size, at, frameWidth, aspect, ev } = asked;
+    const found = look(asked).onFilm(light, ...size, ...at, frameWidth, aspect, ev);
+    const [codes, reasons] = [found.bytes(), found.reasons()];
+    found.free();
+    return [{ codes, reasons }, codes ? [codes.buffer] : []];
+  },
+
   /** The picture in a file, developed into another file. */
   developFile(asked) {
-    const bytes = look(asked).developFile(new Uint8Array(asked.file), asked.name, asked.ev, asked.kind);
-    return [bytes, [bytes.buffer]];
+    const { file, name, behind, ev, kind } = asked;
+    const found = look(asked).developFile(new Uint8Array(file), name, behind, ev, kind, (done) => say({ done }));
+    const [bytes, reasons] = [found.bytes(), found.reasons()];
+    found.free();
+    return [{ bytes, reasons }, [bytes.buffer]];
   },
 
   /** The look as files for a program. */
@@ -111,7 +131,7 @@ onmessage = ({ data }) => {
     // A trap leaves the memory as it was in the middle of something: it is given up for a new one. Pixels lie outside of it.
     const trapped = error instanceof WebAssembly.RuntimeError || error instanceof RangeError;
     if (trapped) {
-      looks.clear();
+      for (const kept of [forms, looks, moving]) kept.clear();
       __wbg_reset_state();
     }
     postMessage({ id: asked, error: trapped ? sentence(data) : error.message ?? String(error), trapped });

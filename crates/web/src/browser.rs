@@ -2,11 +2,16 @@
 #![expect(unreachable_pub, reason = "wasm-bindgen exports what is public; no Rust calls it")]
 
 use onelight::certify::CertifySettings;
+use onelight::lut::DirectForm;
 use onelight::{Word as _, WorkingSpace};
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsError, JsValue};
 
-use crate::{FilmLook, Keys, OpenedPicture, PictureKind, Way, bake_for, choices, develop_file, films, look_bytes};
+use crate::{
+    DevelopedFile, FileOrder, FilmLook, FramePart, Keys, MovingLook, OnFilm, OpenedPicture, PackedLooks, PictureKind,
+    Way, bake_for, choices, develop_codes, develop_file, develop_on_film, films, look_bytes, look_name, pack_one,
+    quick_form, unpack_one,
+};
 
 type Result<T> = std::result::Result<T, JsError>;
 
@@ -44,13 +49,87 @@ pub fn toml_of_keys(json: &str) -> Result<String> {
     Ok(keys.to_toml())
 }
 
-/// What a graphics card reads of a look, from its direct form: see [`look_bytes`].
-#[wasm_bindgen(js_name = lookBytes)]
-pub fn look_bytes_of(direct_json: &str) -> Result<Vec<u8>> {
-    Ok(look_bytes(direct_json)?)
+/// The keys that decide colours, made to fit: the name that looks are known by.
+#[wasm_bindgen(js_name = colourKeys)]
+pub fn colour_keys(json: &str) -> Result<String> {
+    Ok(Keys::from_json(json)?.fitting()?.colours().to_json()?)
 }
 
-/// A look that develops pixels.
+/// What a graphics card reads of a look, from its packed form: see [`look_bytes`].
+#[wasm_bindgen(js_name = lookBytes)]
+pub fn look_bytes_of(packed: &[u8]) -> Result<Vec<u8>> {
+    Ok(look_bytes(&unpack_one(packed)?)?)
+}
+
+/// The looks that the page is shipped with: see [`PackedLooks`].
+#[wasm_bindgen(js_name = Shipped)]
+#[derive(Debug)]
+pub struct BrowserShipped(PackedLooks);
+
+#[wasm_bindgen(js_class = Shipped)]
+impl BrowserShipped {
+    /// Of a packed file.
+    #[wasm_bindgen(constructor)]
+    pub fn new(file: &[u8]) -> Result<Self> {
+        Ok(Self(PackedLooks::new(file)?))
+    }
+
+    /// The packed form of the usual look of these keys' films; `undefined` where it was not shipped.
+    #[wasm_bindgen(js_name = usual)]
+    pub fn usual(&self, keys: &str) -> Result<Option<Vec<u8>>> {
+        let form = self.0.form(&look_name(&Keys::from_json(keys)?))?;
+        Ok(form.as_ref().map(pack_one))
+    }
+
+    /// The packed form of these keys where numbers suffice to have it from a shipped one ([`quick_form`]), else `undefined`.
+    #[wasm_bindgen(js_name = quick)]
+    pub fn quick(&self, keys: &str) -> Result<Option<Vec<u8>>> {
+        let keys = Keys::from_json(keys)?;
+        let Some(usual) = self.0.form(&look_name(&keys))? else { return Ok(None) };
+        Ok(quick_form(&keys, &usual)?.as_ref().map(pack_one))
+    }
+}
+
+/// A packed form that develops pixels.
+#[wasm_bindgen(js_name = Form)]
+#[derive(Debug)]
+pub struct BrowserForm(DirectForm);
+
+#[wasm_bindgen(js_class = Form)]
+impl BrowserForm {
+    /// Of a packed look.
+    #[wasm_bindgen(constructor)]
+    pub fn new(packed: &[u8]) -> Result<Self> {
+        Ok(Self(unpack_one(packed)?))
+    }
+
+    /// Display codes for light in half floats: see [`develop_codes`].
+    pub fn develop(&self, light: &[u16], ev: f64) -> Result<Vec<u8>> {
+        Ok(develop_codes(&self.0, light, ev)?)
+    }
+}
+
+/// Films whose form follows the controls: see [`MovingLook`].
+#[wasm_bindgen(js_name = Moving)]
+#[derive(Debug)]
+pub struct BrowserMoving(MovingLook);
+
+#[wasm_bindgen(js_class = Moving)]
+impl BrowserMoving {
+    /// The films of these keys; with the packed form of their usual look where it was shipped.
+    #[wasm_bindgen(constructor)]
+    pub fn new(keys: &str, usual: Option<Vec<u8>>) -> Result<Self> {
+        let usual = usual.map(|packed| unpack_one(&packed)).transpose()?;
+        Ok(Self(MovingLook::new(&Keys::from_json(keys)?, usual)?))
+    }
+
+    /// The packed form of these keys.
+    pub fn form(&mut self, keys: &str) -> Result<Vec<u8>> {
+        Ok(pack_one(&self.0.form(&Keys::from_json(keys)?)?))
+    }
+}
+
+/// A look with its film: where colours come from, and whole pictures.
 #[wasm_bindgen(js_name = Look)]
 #[derive(Debug)]
 pub struct BrowserLook {
@@ -60,28 +139,12 @@ pub struct BrowserLook {
 
 #[wasm_bindgen(js_class = Look)]
 impl BrowserLook {
-    /// Of these keys; with its direct form where it was made before.
+    /// Of these keys, with the packed form of its colours.
     #[wasm_bindgen(constructor)]
-    pub fn new(keys: &str, direct_json: Option<String>) -> Result<Self> {
+    pub fn new(keys: &str, packed: &[u8]) -> Result<Self> {
         let keys = Keys::from_json(keys)?;
-        let look = FilmLook::new(&keys)?;
-        let look = match direct_json {
-            Some(json) => look.with_direct(&json)?,
-            None => look,
-        };
-        look.direct()?;
+        let look = FilmLook::new(&keys)?.with_direct(unpack_one(packed)?);
         Ok(Self { keys, look })
-    }
-
-    /// Display codes for light in half floats: see [`FilmLook::develop`].
-    pub fn develop(&self, light: &[u16], ev: f64) -> Result<Vec<u8>> {
-        Ok(self.look.develop(light, ev)?)
-    }
-
-    /// The direct form as a file.
-    #[wasm_bindgen(js_name = directJson)]
-    pub fn direct_json(&self) -> Result<String> {
-        Ok(String::from_utf8_lossy(&self.look.direct_json()?).into_owned())
     }
 
     /// Where a scene-linear colour comes from, as the JSON of [`Way`].
@@ -89,10 +152,57 @@ impl BrowserLook {
         Ok(serde_json::to_string(&Way::of(&self.look, [red, green, blue])?)?)
     }
 
+    /// Develops a rectangle of light with the effects of the film format: see [`develop_on_film`].
+    #[wasm_bindgen(js_name = onFilm)]
+    #[expect(clippy::too_many_arguments, reason = "JavaScript hands numbers over one by one")]
+    pub fn on_film(
+        &self,
+        light: &[u16],
+        width: usize,
+        height: usize,
+        left: i32,
+        top: i32,
+        frame_width: usize,
+        pixel_aspect: f64,
+        ev: f64,
+    ) -> Result<BrowserOnFilm> {
+        let part = FramePart { size: [width, height], at: [left, top], frame_width, pixel_aspect };
+        Ok(BrowserOnFilm(develop_on_film(&self.look, light, &part, ev)?))
+    }
+
     /// Develops a whole file into another.
     #[wasm_bindgen(js_name = developFile)]
-    pub fn develop_file(&self, file: Vec<u8>, name: &str, ev: f64, kind: &str) -> Result<Vec<u8>> {
-        Ok(develop_file(file, name, &self.keys, &self.look, ev, PictureKind::parse(kind)?, &mut |_| {})?)
+    pub fn develop_file(
+        &self,
+        file: Vec<u8>,
+        name: &str,
+        behind: &str,
+        ev: f64,
+        kind: &str,
+        progress: &Progress,
+    ) -> Result<BrowserOnFilm> {
+        let order = FileOrder { name, behind, ev, kind: PictureKind::parse(kind)? };
+        let mut tell = |share| progress.tell(&JsValue::UNDEFINED, share);
+        let DevelopedFile { bytes, reasons } = develop_file(file, &order, &self.keys, &self.look, &mut tell)?;
+        Ok(BrowserOnFilm(OnFilm { codes: Some(bytes), reasons }))
+    }
+}
+
+/// Bytes, and what was done to the picture in them.
+#[wasm_bindgen(js_name = OnFilm)]
+#[derive(Debug)]
+pub struct BrowserOnFilm(OnFilm);
+
+#[wasm_bindgen(js_class = OnFilm)]
+impl BrowserOnFilm {
+    /// Codes or the file, once; `undefined` where no effect is run.
+    pub fn bytes(&mut self) -> Option<Vec<u8>> {
+        self.0.codes.take()
+    }
+
+    /// Which effects are run and which are not, and why, a line each.
+    pub fn reasons(&self) -> String {
+        self.0.reasons.join("\n")
     }
 }
 
@@ -103,10 +213,10 @@ pub struct BrowserPicture(OpenedPicture);
 
 #[wasm_bindgen(js_class = Picture)]
 impl BrowserPicture {
-    /// Opens a file; `space` is the look's input space.
+    /// Opens a file; `space` is the look's input space, `behind` what lies behind a picture with alpha.
     #[wasm_bindgen(constructor)]
-    pub fn new(file: Vec<u8>, name: &str, space: &str) -> Result<Self> {
-        Ok(Self(OpenedPicture::new(file, name, WorkingSpace::parse(space)?)?))
+    pub fn new(file: Vec<u8>, name: &str, space: &str, behind: &str) -> Result<Self> {
+        Ok(Self(OpenedPicture::new(file, name, WorkingSpace::parse(space)?, behind)?))
     }
 
     /// The JSON of [`Described`](crate::Described).

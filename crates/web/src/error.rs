@@ -17,15 +17,28 @@ enum Kind {
     Lut(onelight::lut::Error),
     Gpu(onelight::gpu::Error),
     Spectra(onelight::spectra::Error),
+    Spatial(onelight::spatial::Error),
     Json(serde_json::Error),
     Samples { found: usize, expected: usize },
     Format(String),
+    Packed(&'static str),
+    WithoutFilm,
 }
 
 impl Error {
     /// A buffer of pixels that holds another number of samples than it should.
     pub(crate) fn samples(found: usize, expected: usize) -> Self {
         Self(Kind::Samples { found, expected })
+    }
+
+    /// An approach without film, which the page does not have.
+    pub(crate) fn without_film() -> Self {
+        Self(Kind::WithoutFilm)
+    }
+
+    /// Bytes that are no packed look.
+    pub(crate) fn packed(problem: &'static str) -> Self {
+        Self(Kind::Packed(problem))
     }
 
     /// A kind of picture that is not written.
@@ -43,8 +56,13 @@ impl fmt::Display for Error {
             Kind::Lut(error) => error.fmt(f),
             Kind::Gpu(error) => error.fmt(f),
             Kind::Spectra(error) => error.fmt(f),
+            Kind::Spatial(error) => error.fmt(f),
             Kind::Json(error) => write!(f, "the page's own message cannot be read: {error}"),
             Kind::Samples { found, expected } => write!(f, "pixels: found {found} samples, expected {expected}"),
+            Kind::Packed(problem) => write!(f, "a packed look: {problem}"),
+            Kind::WithoutFilm => f.write_str(
+                "the look is no simulation of film, expected approach second with a camera film: the command line has the others",
+            ),
             Kind::Format(word) => {
                 write!(f, "{word:?} is no kind of picture, expected png8, png16, tiff16, exr or jpeg")
             }
@@ -61,8 +79,9 @@ impl std::error::Error for Error {
             Kind::Lut(error) => error.source(),
             Kind::Gpu(error) => error.source(),
             Kind::Spectra(error) => error.source(),
+            Kind::Spatial(error) => error.source(),
             Kind::Json(error) => error.source(),
-            Kind::Samples { .. } | Kind::Format(_) => None,
+            Kind::Samples { .. } | Kind::Format(_) | Kind::Packed(_) | Kind::WithoutFilm => None,
         }
     }
 }
@@ -84,5 +103,6 @@ from! {
     onelight::lut::Error => Lut,
     onelight::gpu::Error => Gpu,
     onelight::spectra::Error => Spectra,
+    onelight::spatial::Error => Spatial,
     serde_json::Error => Json
 }

@@ -4,7 +4,6 @@ use std::cell::OnceCell;
 
 use half::f16;
 use half::slice::{HalfBitsSliceExt as _, HalfFloatSliceExt as _};
-use onelight::formats::direct_json;
 use onelight::lut::DirectForm;
 use onelight::{Channels, DirectSettings, Look, PixelMap as _, Pixels, PixelsMut, Process};
 
@@ -45,13 +44,10 @@ impl FilmLook {
         Ok(Self { process: keys.process()?, exact: OnceCell::new(), direct: OnceCell::new() })
     }
 
-    /// The same with its direct form from a file that was made before ([`FilmLook::direct_json`]).
-    ///
-    /// # Errors
-    /// If it is no such file.
-    pub fn with_direct(self, json: &str) -> Result<Self, Error> {
-        let direct = direct_json::parse(json)?;
-        Ok(Self { direct: OnceCell::from(direct), ..self })
+    /// The same with its direct form, made before.
+    #[must_use]
+    pub fn with_direct(self, direct: DirectForm) -> Self {
+        Self { direct: OnceCell::from(direct), ..self }
     }
 
     /// What it was made of.
@@ -82,39 +78,36 @@ impl FilmLook {
         made(&self.direct, || Ok(self.exact()?.film()?.direct(&DirectSettings::default())?))
     }
 
-    /// The direct form as a file, for [`FilmLook::with_direct`].
+    /// Display codes for light in half floats: see [`develop_codes`].
     ///
     /// # Errors
-    /// Those of [`FilmLook::direct`].
-    pub fn direct_json(&self) -> Result<Vec<u8>, Error> {
-        let mut file = Vec::new();
-        direct_json::write(&mut file, self.direct()?, &[self.name()])?;
-        Ok(file)
-    }
-
-    /// Display codes of 8 bits for light in half floats, both red, green, blue and alpha; `ev` is the exposure in stops.
-    ///
-    /// Values are rounded to the nearest code, and alpha goes through.
-    ///
-    /// # Errors
-    /// If the samples are not whole pixels; those of [`FilmLook::direct`].
+    /// Those of [`develop_codes`] and [`FilmLook::direct`].
     pub fn develop(&self, light: &[u16], ev: f64) -> Result<Vec<u8>, Error> {
-        let pixels = light.len() / SAMPLES;
-        if !light.len().is_multiple_of(SAMPLES) {
-            return Err(Error::samples(light.len(), pixels * SAMPLES));
-        }
-        let direct = self.direct()?;
-        let (mut rows, mut codes) = (vec![0.0_f32; light.len().min(BLOCK)], vec![0_u8; light.len()]);
-        for (light, codes) in light.chunks(BLOCK).zip(codes.chunks_mut(BLOCK)) {
-            let rows = &mut rows[..light.len()];
-            light.reinterpret_cast::<f16>().convert_to_f32_slice(rows);
-            expose(rows, ev);
-            let size = [light.len() / SAMPLES, 1];
-            let from = Pixels::new(rows, Channels::Rgba, size)?;
-            direct.map(&from, &mut PixelsMut::new(codes, Channels::Rgba, size)?)?;
-        }
-        Ok(codes)
+        develop_codes(self.direct()?, light, ev)
     }
+}
+
+/// Display codes of 8 bits for light in half floats, both red, green, blue and alpha; `ev` is the exposure in stops.
+///
+/// Values are rounded to the nearest code, and alpha goes through.
+///
+/// # Errors
+/// If the samples are not whole pixels.
+pub fn develop_codes(direct: &DirectForm, light: &[u16], ev: f64) -> Result<Vec<u8>, Error> {
+    let pixels = light.len() / SAMPLES;
+    if !light.len().is_multiple_of(SAMPLES) {
+        return Err(Error::samples(light.len(), pixels * SAMPLES));
+    }
+    let (mut rows, mut codes) = (vec![0.0_f32; light.len().min(BLOCK)], vec![0_u8; light.len()]);
+    for (light, codes) in light.chunks(BLOCK).zip(codes.chunks_mut(BLOCK)) {
+        let rows = &mut rows[..light.len()];
+        light.reinterpret_cast::<f16>().convert_to_f32_slice(rows);
+        expose(rows, ev);
+        let size = [light.len() / SAMPLES, 1];
+        let from = Pixels::new(rows, Channels::Rgba, size)?;
+        direct.map(&from, &mut PixelsMut::new(codes, Channels::Rgba, size)?)?;
+    }
+    Ok(codes)
 }
 
 /// Samples that are developed at a time, so that they stay in the cache.
@@ -166,12 +159,8 @@ mod tests {
     }
 
     #[test]
-    fn a_look_from_a_file_is_the_same_look() {
-        let fitted = FilmLook::new(&Keys::from_json("{}").unwrap()).unwrap();
-        let file = String::from_utf8(fitted.direct_json().unwrap()).unwrap();
-        let read = FilmLook::new(&Keys::from_json("{}").unwrap()).unwrap().with_direct(&file).unwrap();
-        let light = half(&[0.3, 0.1, 4.0, 1.0]);
-        assert_eq!(read.develop(&light, 0.0).unwrap(), fitted.develop(&light, 0.0).unwrap());
-        assert!(fitted.develop(&light[..3], 0.0).unwrap_err().to_string().contains("found 3 samples"));
+    fn half_pixels_are_refused() {
+        let look = FilmLook::new(&Keys::from_json("{}").unwrap()).unwrap();
+        assert!(look.develop(&[0; 3], 0.0).unwrap_err().to_string().contains("found 3 samples"));
     }
 }

@@ -1,9 +1,10 @@
 //! The keys of a look, as the page's controls turn them.
 
 use onelight::baked::Target;
+use onelight::spatial::FilmFormat;
 use onelight::{
-    Aim, DyeModel, Image, InterImageChoice, Matching, PrintCurves, Process, ProcessKeys, Projector, StockKind,
-    TransferCurve, White, WideGamut, Word, stock, usual_print,
+    Aim, DyeModel, EffectChoice, Image, InterImageChoice, Matching, PrintCurves, Process, ProcessKeys, Projector,
+    StockKind, TransferCurve, White, WideGamut, Word, stock, usual_print,
 };
 use serde_json::{Map, Value, json};
 
@@ -64,6 +65,55 @@ impl Keys {
         Ok(self.0.process()?)
     }
 
+    /// The usual look of the same films.
+    #[must_use]
+    pub fn usual(&self) -> Self {
+        let (camera, print) = (self.0.camera.clone(), self.0.print.clone());
+        Self(ProcessKeys { camera, print, ..ProcessKeys::default() })
+    }
+
+    /// The same with all that a form follows without being fitted anew as it usually is: light of the scene, grey, printer's points, white,
+    /// the effect between layers.
+    pub(crate) fn at_rest(&self) -> Self {
+        let usual = ProcessKeys::default();
+        Self(ProcessKeys {
+            aim: usual.aim,
+            neutral_density: usual.neutral_density,
+            overexposure: usual.overexposure,
+            inter_image: usual.inter_image,
+            gamut: usual.gamut,
+            points: usual.points,
+            white: usual.white,
+            ev: usual.ev,
+            scene_white: usual.scene_white,
+            input_space: usual.input_space,
+            ..self.colours().0
+        })
+    }
+
+    /// The same without what the film does to a picture rather than to a colour: looks with the same of these have the same colours.
+    #[must_use]
+    pub fn colours(&self) -> Self {
+        let usual = ProcessKeys::default();
+        Self(ProcessKeys {
+            film_format: usual.film_format,
+            grain: usual.grain,
+            sharpness: usual.sharpness,
+            halation: usual.halation,
+            antihalation: usual.antihalation,
+            seed: usual.seed,
+            ..self.0.clone()
+        })
+    }
+
+    pub(crate) fn keys(&self) -> &ProcessKeys {
+        &self.0
+    }
+
+    pub(crate) fn into_keys(self) -> ProcessKeys {
+        self.0
+    }
+
     /// The same with another coding of what comes out.
     #[must_use]
     pub fn with_coding(&self, output_coding: TransferCurve) -> Self {
@@ -113,6 +163,15 @@ impl Keys {
         if print.as_ref().unwrap_or(&camera).kind().is_reflective() && keys.projector != Projector::ViewingBooth {
             keys.projector = Projector::Display;
         }
+        if keys.film_format.is_none() {
+            keys = Self(keys).colours().0;
+        }
+        if keys.halation == EffectChoice::Off {
+            keys.antihalation = usual.antihalation;
+        }
+        if keys.grain == EffectChoice::Off {
+            keys.seed = usual.seed;
+        }
         if keys.aim == Aim::Sheet {
             keys.neutral_density = usual.neutral_density;
         }
@@ -120,6 +179,24 @@ impl Keys {
             keys.print_curves = usual.print_curves;
         }
         Ok(Self(keys))
+    }
+}
+
+/// The name of the usual look of these keys' films among those that are shipped.
+///
+/// ```
+/// use onelight_web::{Keys, look_name};
+/// assert_eq!(look_name(&Keys::from_json("{}")?), "kodak-5207 kodak-2383");
+/// # Ok::<(), onelight_web::Error>(())
+/// ```
+#[must_use]
+pub fn look_name(keys: &Keys) -> String {
+    format!("{} {}", keys.0.camera, keys.0.print.as_deref().unwrap_or("none"))
+}
+
+impl From<ProcessKeys> for Keys {
+    fn from(keys: ProcessKeys) -> Self {
+        Self(keys)
     }
 }
 
@@ -140,7 +217,11 @@ pub fn choices() -> Value {
     add::<DyeModel>(&mut all);
     add::<PrintCurves>(&mut all);
     add::<Matching>(&mut all);
+    add::<EffectChoice>(&mut all);
     add::<Target>(&mut all);
+    let formats = FilmFormat::named()
+        .map(|(name, format)| json!({ "word": name, "help": format!("{} mm wide", format.width_mm()) }));
+    all.insert("film_format".to_owned(), formats.collect());
     Value::Object(all)
 }
 

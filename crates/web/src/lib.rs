@@ -1,7 +1,8 @@
 //! The darkroom: film simulation as a page in the browser, where nothing leaves the machine.
 //!
 //! - [`films`] and [`choices`] are what the page's controls offer, [`Keys`] what they have been turned to;
-//! - [`FilmLook`] develops the page's pixels, and [`Way`] says where a colour comes from;
+//! - [`FilmLook`] develops the page's pixels, [`MovingLook`] follows its controls, and [`Way`] says where a colour comes from;
+//! - [`develop_on_film`] adds sharpness, halation and grain;
 //! - [`film_shader`] and [`look_bytes`] are the same for graphics cards;
 //! - [`OpenedPicture`] reads a file from bytes; [`develop_file`] and [`bake_for`] make the files that are taken away.
 //!
@@ -26,18 +27,24 @@ mod error;
 mod film_look;
 mod films;
 mod keys;
-mod light;
+mod moving;
+mod on_film;
 mod opened;
+mod packed;
+mod read;
 mod shader;
 mod shrink;
 mod take_away;
 mod way;
 
 pub use error::Error;
-pub use film_look::FilmLook;
+pub use film_look::{FilmLook, develop_codes};
 pub use films::{Film, films};
-pub use keys::{Keys, choices};
+pub use keys::{Keys, choices, look_name};
+pub use moving::{MovingLook, quick_form};
+pub use on_film::{FramePart, OnFilm, develop_on_film};
 pub use opened::{Described, OpenedPicture, Seen};
+pub use packed::{PackedLooks, pack, pack_one, unpack_one};
 pub use shader::{film_shader, look_bytes};
-pub use take_away::{ForProgram, PictureKind, bake_for, develop_file};
+pub use take_away::{DevelopedFile, FileOrder, ForProgram, PictureKind, bake_for, develop_file};
 pub use way::{Developed, Points, Spectrum, Way};

@@ -1,14 +1,12 @@
 //! A picture file on its way to the page: light in half floats, a smaller copy, and what a meter says of it.
 
-use std::io::Cursor;
-
-use onelight::{Meter, WorkingSpace};
-use onelight_picture::{Limits, PictureReader, open};
+use onelight::{LightSeen, PictureLight, WorkingSpace};
+use onelight_picture::{Channels, PictureReader};
 use serde::Serialize;
 
 use crate::error::Error;
 use crate::film_look::SAMPLES;
-use crate::light::Light;
+use crate::read::{PictureFile, background};
 use crate::shrink::{Shrink, half};
 
 /// Pixels of the copy that the page draws while the whole picture is on the screen.
@@ -27,7 +25,7 @@ const STOPS: [f64; 2] = [-12.0, 12.0];
 /// # use onelight_picture::{Picture, Source};
 /// # let mut file = Cursor::new(Vec::new());
 /// # Picture::opaque(3, 2, vec![[0.09; 3]; 6], Source::Exr).write_exr(&mut file, &[])?;
-/// let mut picture = OpenedPicture::new(file.into_inner(), "grey.exr", onelight::WorkingSpace::Srgb)?;
+/// let mut picture = OpenedPicture::new(file.into_inner(), "grey.exr", onelight::WorkingSpace::Srgb, "")?;
 /// let mut samples = 0;
 /// while let Some(rows) = picture.next_rows()? {
 ///     samples += rows.len();
@@ -40,9 +38,9 @@ const STOPS: [f64; 2] = [-12.0, 12.0];
 #[derive(Debug)]
 pub struct OpenedPicture {
     reader: PictureReader<'static>,
-    light: Light,
+    light: PictureLight,
     notes: Vec<String>,
-    meter: Meter,
+    seen: LightSeen,
     preview: Shrink,
     thumbnail: Shrink,
 }
@@ -60,6 +58,14 @@ pub struct Described {
     pub thumbnail: [usize; 2],
     /// What the user should know, a sentence each.
     pub notes: Vec<String>,
+    /// Whether the file holds coverage.
+    pub has_alpha: bool,
+    /// Pixels across the whole frame: of an OpenEXR file, of its display window.
+    pub frame_width: usize,
+    /// Where the first pixel lies in that frame.
+    pub at: [i32; 2],
+    /// Width of a pixel over its height.
+    pub pixel_aspect: f64,
 }
 
 /// What was seen of its light, once all rows were read.
@@ -71,33 +77,42 @@ pub struct Seen {
     pub histogram: Vec<u64>,
     /// The range of the histogram in stops about mid grey.
     pub stops: [f64; 2],
+    /// Pixels that hold NaN, which counts as 0, or infinity.
+    pub hard: usize,
 }
 
 impl OpenedPicture {
-    /// Opens the picture in a file.
+    /// Opens the picture in a file. `behind` says what lies behind a picture with alpha: `none`, `black`, or what `cargo xtask develop` does
+    /// where nothing is named.
     ///
     /// # Errors
     /// Those of [`onelight_picture::open`]; chromaticities that make no colour space.
-    pub fn new(file: Vec<u8>, name: &str, input: WorkingSpace) -> Result<Self, Error> {
-        let reader = open(Cursor::new(file), name, Limits::default())?;
-        let description = reader.description();
-        let mut notes = description.notes.clone();
-        let light = Light::new(description, input, &mut notes)?;
-        let size = [description.width, description.height];
+    pub fn new(file: Vec<u8>, name: &str, input: WorkingSpace, behind: &str) -> Result<Self, Error> {
+        let file = PictureFile::new(file, name);
+        let reading = file.reading(input, background(behind))?;
+        let reader = file.open()?;
+        let size = [reader.description().width, reader.description().height];
         let [preview, thumbnail] = [PREVIEW_PIXELS, THUMBNAIL_PIXELS].map(|pixels| Shrink::to(size, pixels));
-        Ok(Self { reader, light, notes, meter: Meter::default(), preview, thumbnail })
+        let (light, notes) = (reading.light, reading.notes);
+        Ok(Self { reader, light, notes, seen: LightSeen::default(), preview, thumbnail })
     }
 
     /// What the file says, and the sizes of what is made of it.
     #[must_use]
     pub fn described(&self) -> Described {
         let description = self.reader.description();
+        let windows = &description.windows;
+        let at = [0, 1].map(|axis| windows.data_origin[axis].saturating_sub(windows.display_origin[axis]));
         Described {
             width: description.width,
             height: description.height,
             preview: self.preview.size(),
             thumbnail: self.thumbnail.size(),
             notes: self.notes.clone(),
+            has_alpha: description.channels == Channels::Rgba,
+            frame_width: windows.display_size[0],
+            at,
+            pixel_aspect: f64::from(windows.pixel_aspect),
         }
     }
 
@@ -107,7 +122,7 @@ impl OpenedPicture {
     /// Those of [`PictureReader::next_band`].
     pub fn next_rows(&mut self) -> Result<Option<Vec<u16>>, Error> {
         let Some(band) = self.reader.next_band()? else { return Ok(None) };
-        self.light.of(band, 0.0, Some(&mut self.meter));
+        self.light.expose(band, 0.0, None, Some(&mut self.seen));
         let mut rows = Vec::with_capacity(band.rgb().len() * SAMPLES);
         for (i, rgb) in band.rgb().iter().enumerate() {
             let alpha = band.alpha().map_or(1.0, |alpha| alpha[i]);
@@ -135,6 +150,7 @@ impl OpenedPicture {
     #[must_use]
     pub fn seen(&self) -> Seen {
         let bins = (STOPS[1] - STOPS[0]) as usize * BINS;
-        Seen { auto_ev: self.meter.exposure(), histogram: self.meter.histogram(STOPS, bins), stops: STOPS }
+        let LightSeen { hard, meter } = &self.seen;
+        Seen { auto_ev: meter.exposure(), histogram: meter.histogram(STOPS, bins), stops: STOPS, hard: *hard }
     }
 }

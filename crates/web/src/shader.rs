@@ -1,7 +1,7 @@
 //! The film in the language of graphics cards.
 
-use onelight::formats::direct_json;
 use onelight::gpu::{CURVE_ROWS, FormKind, LookBytes, LookSettings, MAX_POINTS, wgsl};
+use onelight::lut::DirectForm;
 
 use crate::error::Error;
 
@@ -22,22 +22,21 @@ pub fn film_shader() -> String {
 /// Bytes of a point of a curve: two 32-bit floats.
 const POINT_BYTES: usize = 8;
 
-/// What the shader reads of a look, from the file of its direct form: the uniform buffer, then the texture of points, 2048 by 9 pairs of
+/// What the shader reads of a look, from its direct form: the uniform buffer, then the texture of points, 2048 by 9 pairs of
 /// 32-bit floats.
 ///
 /// ```
 /// use onelight_web::{FilmLook, Keys, look_bytes};
-/// let file = FilmLook::new(&Keys::from_json("{}")?)?.direct_json()?;
-/// let bytes = look_bytes(&String::from_utf8_lossy(&file))?;
+/// let look = FilmLook::new(&Keys::from_json("{}")?)?;
+/// let bytes = look_bytes(look.direct()?)?;
 /// assert_eq!(bytes.len(), onelight::gpu::FormKind::Direct.uniform_bytes() + 2048 * 9 * 8);
 /// # Ok::<(), onelight_web::Error>(())
 /// ```
 ///
 /// # Errors
-/// If it is no such file, or its curves or sums are longer than shaders take.
-pub fn look_bytes(direct_json: &str) -> Result<Vec<u8>, Error> {
-    let direct = direct_json::parse(direct_json)?;
-    let look = LookBytes::new(&direct, LookSettings::default().storage)?;
+/// If its curves or sums are longer than shaders take.
+pub fn look_bytes(direct: &DirectForm) -> Result<Vec<u8>, Error> {
+    let look = LookBytes::new(direct, LookSettings::default().storage)?;
     let row_bytes = MAX_POINTS * POINT_BYTES;
     let (mut bytes, uniform) = (look.uniform, FormKind::Direct.uniform_bytes());
     bytes.resize(uniform + CURVE_ROWS as usize * row_bytes, 0);

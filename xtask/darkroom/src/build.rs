@@ -85,8 +85,8 @@ fn fill(top: &Path, wasm: &Path, folder: &Path) -> Result<()> {
     }
     write(&folder.join("film.wgsl"), film_shader().as_bytes())?;
     write(&folder.join("film.glsl.json"), &glsl::translated(&film_shader())?)?;
-    eprintln!("darkroom: the looks of all camera films, and the scene to begin with");
-    write(&folder.join("looks.json"), &looks::looks()?)?;
+    eprintln!("darkroom: the looks of all camera films on all that they are printed on, and the scene to begin with");
+    write(&folder.join("looks.bin"), &looks::looks()?)?;
     write(&folder.join("scene.exr"), &looks::scene()?)
 }
 

@@ -1,34 +1,39 @@
 //! What the page need not compute: the looks of all camera films on their usual prints, and a scene.
 
-use std::collections::BTreeMap;
 use std::io::Cursor;
 
 use anyhow::{Context, Result};
 use half::f16;
-use onelight_picture::{Picture, Source};
-use onelight_web::{FilmLook, Keys, films};
+use onelight::lut::DirectForm;
+use onelight::{Stock, pairs, stock, stock_ids};
+use onelight_picture::{Chromaticities, Picture, Source};
+use onelight_web::{FilmLook, Keys, look_name, pack};
 use rayon::prelude::*;
-use serde_json::{Value, json};
+use serde_json::json;
 
 /// Pixels of the scene across and down.
 const SCENE: (usize, usize) = (720, 405);
 
-/// The direct form of each camera film on its usual print, by the film's id.
+/// The direct form of every camera film on all that it is printed on, packed.
 ///
 /// # Errors
 /// None with the films that are built in.
 pub(crate) fn looks() -> Result<Vec<u8>> {
-    let films = films()?;
-    let cameras: Vec<&str> = films.iter().filter(|film| film.is_camera).map(|film| film.id.as_str()).collect();
-    let looks = cameras.par_iter().map(|id| look(id)).collect::<Result<BTreeMap<_, _>>>()?;
-    Ok(serde_json::to_vec(&looks)?)
+    let stocks = stock_ids().map(stock).collect::<Result<Vec<_>, _>>()?;
+    let looks: Vec<(String, DirectForm)> = pairs(&stocks)
+        .into_par_iter()
+        .map(|(camera, print)| look(camera.id(), print.map(Stock::id)))
+        .collect::<Result<_>>()?;
+    let looks: Vec<(&str, &DirectForm)> = looks.iter().map(|(name, form)| (name.as_str(), form)).collect();
+    Ok(pack(&looks))
 }
 
-/// The direct form of a camera film on its usual print, with the film's id.
-fn look(id: &str) -> Result<(String, Value)> {
-    let keys = Keys::from_json(&json!({ "camera": id }).to_string())?.fitting()?;
-    let file = FilmLook::new(&keys)?.direct_json().with_context(|| id.to_owned())?;
-    Ok((id.to_owned(), String::from_utf8(file)?.into()))
+/// The direct form of the usual look of two films, with its name.
+fn look(camera: &str, print: Option<&str>) -> Result<(String, DirectForm)> {
+    let keys = Keys::from_json(&json!({ "camera": camera, "print": print.unwrap_or("none") }).to_string())?;
+    let name = look_name(&keys);
+    let form = FilmLook::new(&keys)?.direct().with_context(|| name.clone())?.clone();
+    Ok((name, form))
 }
 
 /// The fixture scene as a picture of a size to look at.
@@ -41,7 +46,8 @@ pub(crate) fn scene() -> Result<Vec<u8>> {
     let rgb = onelight_fixtures::scene_rgb(SCENE)?.into_iter().map(half).collect();
     let mut file = Cursor::new(Vec::new());
     let texts = [("Software", concat!("onelight ", env!("CARGO_PKG_VERSION")))];
-    Picture::opaque(SCENE.0, SCENE.1, rgb, Source::Exr).write_exr(&mut file, &texts)?;
+    let primaries = Some(Chromaticities::BT709);
+    Picture { primaries, ..Picture::opaque(SCENE.0, SCENE.1, rgb, Source::Exr) }.write_exr(&mut file, &texts)?;
     Ok(file.into_inner())
 }
 
@@ -51,10 +57,10 @@ mod tests {
 
     #[test]
     fn a_look_develops_as_the_film_that_it_is_of() {
-        let (id, file) = look("kodak-5207").unwrap();
-        assert_eq!(id, "kodak-5207");
+        let (name, form) = look("kodak-5207", Some("kodak-2383")).unwrap();
+        assert_eq!(name, "kodak-5207 kodak-2383");
         let keys = Keys::from_json("{}").unwrap();
-        let look = FilmLook::new(&keys).unwrap().with_direct(file.as_str().unwrap()).unwrap();
+        let look = FilmLook::new(&keys).unwrap().with_direct(form);
         // A grey card in half floats.
         assert_eq!(look.develop(&[0x31c3, 0x31c3, 0x31c3, 0x3c00], 0.0).unwrap(), [123, 123, 123, 255]);
     }

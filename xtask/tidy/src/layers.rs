@@ -109,7 +109,11 @@ const LAYERS: [Layer; 18] = [
         ],
         ..PROGRAM
     },
-    Layer { folder: "xtask/darkroom", allowed: &["onelight-web", "onelight-picture", "onelight-fixtures"], ..PROGRAM },
+    Layer {
+        folder: "xtask/darkroom",
+        allowed: &["onelight", "onelight-web", "onelight-picture", "onelight-fixtures"],
+        ..PROGRAM
+    },
     Layer { folder: "xtask/tidy", ..PROGRAM },
 ];
 

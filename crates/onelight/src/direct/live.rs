@@ -8,7 +8,7 @@ use super::settings::{DirectSettings, Nodes};
 use super::stages::Stages;
 use super::sum::{Sum, Term};
 use super::training::Training;
-use crate::error::Error;
+use crate::error::{Error, ErrorKind};
 use crate::films::Films;
 use crate::process::FilmProcess;
 use crate::reference::Reference;
@@ -68,6 +68,37 @@ impl LiveDirect {
         let full = Stages::of(&film);
         let few = film.direct_stages(&full, &settings)?;
         let form = film.direct_of(&few)?;
+        Ok(Self { settings, process: process.clone(), films, film, form, fitted: Fitted { full, few } })
+    }
+
+    /// The same with a form that was made of this process before, which saves fitting one: as a file holds it, or
+    /// [`LiveDirect::form`].
+    ///
+    /// ```
+    /// use onelight::{DirectSettings, FilmProcess, LiveDirect};
+    /// let process = FilmProcess::for_camera("fuji-velvia-50")?;
+    /// let form = process.compile()?.direct(&DirectSettings::default())?;
+    /// let mut live = LiveDirect::from_form(&process, DirectSettings::default(), form)?;
+    /// live.change(&FilmProcess { neutral_density: 0.9, ..process })?;
+    /// let (exact, fast) = (live.film().develop([0.5, 0.3, 0.1]), live.form().apply([0.5, 0.3, 0.1]));
+    /// assert!(exact.iter().zip(fast).all(|(exact, fast)| (exact - f64::from(fast)).abs() < 0.002));
+    /// # Ok::<(), onelight::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`FilmProcess::compile`]; and if the form has a print where the process has none, or the other way round.
+    pub fn from_form(process: &FilmProcess, settings: DirectSettings, form: DirectForm) -> Result<Self, Error> {
+        let films = Films::of_film(process)?;
+        let film = process.compile_with(&films)?;
+        let full = Stages::of(&film);
+        let parts = form.parts();
+        let duplication = parts.print.as_ref().map(|print| Sum::from(&print.exposure));
+        if duplication.is_some() != full.duplication.is_some() {
+            let found = if duplication.is_some() { "a print" } else { "no print" };
+            let sentence = format!("the form has {found}, expected one that was made of {}", film.name());
+            return Err(ErrorKind::Contradiction(sentence).into());
+        }
+        let few = Stages { duplication, projection: Sum::from(&parts.projection) };
         Ok(Self { settings, process: process.clone(), films, film, form, fitted: Fitted { full, few } })
     }
 
@@ -222,6 +253,20 @@ mod tests {
         live.change(&negative()).unwrap();
         let (found, wanted) = (live.form().apply([0.5, 0.2, 0.1]), live.film().develop([0.5, 0.2, 0.1]));
         assert!(found.into_iter().zip(wanted).all(|(found, wanted)| (f64::from(found) - wanted).abs() < 1e-3));
+    }
+
+    #[test]
+    fn a_form_from_a_file_is_followed_as_its_own() {
+        let own = LiveDirect::new(&negative(), DirectSettings::default()).unwrap();
+        let mut live = LiveDirect::from_form(&negative(), DirectSettings::default(), own.form().clone()).unwrap();
+        for process in [with_points([3.0, -2.0, 1.0]), FilmProcess { aim: Aim::Sheet, ..negative() }] {
+            live.change(&process).unwrap();
+            let found = miss(&live);
+            assert!(found <= USUAL_LIMIT, "{found}: {process:?}");
+        }
+        let reversal = FilmProcess::for_camera("fuji-velvia-50").unwrap();
+        let error = LiveDirect::from_form(&reversal, DirectSettings::default(), own.form().clone()).unwrap_err();
+        assert!(error.to_string().contains("the form has a print"), "{error}");
     }
 
     #[test]

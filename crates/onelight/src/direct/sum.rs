@@ -31,6 +31,13 @@ impl Term {
     }
 }
 
+impl From<&ExponentialSum> for Sum {
+    fn from(sum: &ExponentialSum) -> Self {
+        let wide = |v: [f32; 3]| Vector3::from(v.map(f64::from));
+        Self(sum.terms().iter().map(|term| Term { rate: wide(term.rate), weight: wide(term.weight) }).collect())
+    }
+}
+
 impl Sum {
     /// The sums over rows by 1 nm, `to` put behind them.
     pub(super) fn of(rows: &[SpectralRow], to: &Matrix3<f64>) -> Self {

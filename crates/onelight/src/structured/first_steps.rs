@@ -5,14 +5,38 @@ use std::f64::consts::LOG2_10;
 use nalgebra::Matrix3;
 use onelight_film::{AmountCurve, PerLayer, WideGamut};
 use onelight_lut::{Coupling, Develop, Domain, Expose, Lut1d, NegativeLight, Rows};
+use onelight_spectra::RgbSpace;
 
 use crate::error::Error;
+use crate::process::ColourSpaces;
 use crate::reference::Reference;
 
 /// Points of a curve: its error is below 0.002 dE.
 pub(super) const CURVE_POINTS: usize = 1024;
 /// Points of a curve of developed density: its error is below 0.002 dE.
 const COUPLING_POINTS: usize = 257;
+
+impl ColourSpaces {
+    /// The first matrix of a form ([`Expose::input`](onelight_lut::Expose)) for pictures of these spaces: what moves a form's exposure and
+    /// scene white ([`DirectForm::with_expose`](onelight_lut::DirectForm::with_expose)) without its film.
+    ///
+    /// ```
+    /// use onelight::{ColourSpaces, lut::Expose};
+    /// let form = onelight::Process::for_camera("fuji-velvia-50")?.compile()?.direct(&Default::default())?;
+    /// let expose = form.parts().expose;
+    /// let brighter = ColourSpaces { ev: 1.0, ..ColourSpaces::default() };
+    /// let moved = form.clone().with_expose(Expose { input: brighter.input_rows()?, ..expose })?;
+    /// assert!((moved.apply([0.1; 3])[1] - form.apply([0.2; 3])[1]).abs() < 1e-5);
+    /// # Ok::<(), onelight::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If exposure or white are out of range.
+    pub fn input_rows(&self) -> Result<Rows, Error> {
+        self.check()?;
+        Ok(rows(&self.scene_to(&RgbSpace::SRGB)?))
+    }
+}
 
 impl Reference {
     /// From scene light in the input's primaries to log2 exposure.
