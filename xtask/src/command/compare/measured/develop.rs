@@ -3,13 +3,14 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
+use onelight::baked::{Form, Recipe};
+use onelight::spatial::Frame as FilmFrame;
 use onelight::spectra::{DisplayDifference, DisplayLinear, RgbSpace};
-use onelight::{Films, Look, ProcessKeys, TransferCurve};
+use onelight::{FilmEffects, FilmSteps, Films, Look, ProcessKeys, TransferCurve};
 use rayon::prelude::*;
-use serde::Serialize;
 
-use super::frame::Frame;
+use super::frame::{Frame, OnFilm};
 use super::plan::Shot;
 
 /// A frame's colours developed, display-linear sRGB; or why they are not.
@@ -56,7 +57,10 @@ impl Darkroom {
         if let Some(developed) = self.pictures.get(&key) {
             return developed.clone();
         }
-        let developed = self.look(&shot.keys).map(|look| Arc::new(picture(&look, frame, shot.ev)));
+        let developed = self.look(&shot.keys).and_then(|look| match &frame.on_film {
+            Some(part) => on_film(&shot.keys, &look, part).map(Arc::new).map_err(|error| error.to_string()),
+            None => Ok(Arc::new(picture(&look, frame, shot.ev))),
+        });
         self.pictures.insert(key, developed.clone());
         developed
     }
@@ -69,13 +73,24 @@ fn picture(look: &Look, frame: &Frame, ev: i32) -> Vec<[f32; 3]> {
     frame.colours.par_iter().map(develop).collect()
 }
 
+/// A part of a picture as its place on the film makes it, by the direct form.
+fn on_film(keys: &ProcessKeys, look: &Look, part: &OnFilm) -> Result<Vec<[f32; 3]>> {
+    let process = keys.process()?;
+    let effects = FilmEffects::new(process.film()?)?.context("a look without a film format has no effects to show")?;
+    let baked = look.baked(&Recipe::of(Form::Direct))?;
+    let frame = FilmFrame::new(part.size, effects.pitch(part.frame_width, 1.0)?)?.at(part.offset);
+    let (shown, _) = effects.develop(FilmSteps::of(look, Some(&baked))?, frame, &part.rgb)?;
+    let linear = |rgb: [f32; 3]| rgb.map(|v| TransferCurve::Srgb.decode(f64::from(v)) as f32);
+    Ok(part.middle(&shown).map(linear).collect())
+}
+
 /// Display-linear sRGB to display-coded.
 pub(super) fn coded(linear: &[[f32; 3]]) -> Vec<[f32; 3]> {
     linear.iter().map(|rgb| rgb.map(|v| TransferCurve::Srgb.encode(f64::from(v)) as f32)).collect()
 }
 
 /// Difference of two pictures: CIEDE2000 of the display colours, clipped to the display.
-#[derive(Debug, Clone, Copy, Serialize)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Distance {
     pub(super) mean: f64,
     pub(super) p95: f64,
@@ -89,6 +104,11 @@ impl Distance {
         let at = |part: f64| sorted.get((part * (sorted.len() as f64 - 1.0)) as usize).copied().map_or(0.0, f64::from);
         let mean = differences.iter().copied().map(f64::from).sum::<f64>() / differences.len().max(1) as f64;
         Self { mean, p95: at(0.95), max: at(1.0) }
+    }
+
+    /// Mean, 95 % and maximum.
+    pub(super) fn numbers(self) -> [f64; 3] {
+        [self.mean, self.p95, self.max]
     }
 }
 

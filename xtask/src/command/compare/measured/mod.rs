@@ -1,14 +1,13 @@
 mod banding;
 mod develop;
 mod frame;
-mod page;
 mod plan;
 
 use std::fmt::Write as _;
 
 use anyhow::Result;
 use onelight::Process;
-use onelight_charts::{Tile, contact_sheet, difference_map};
+use onelight_charts::{SheetRow, SheetSection, Tile, contact_sheet, difference_map, sheet_page};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -18,7 +17,6 @@ use crate::progress::{Clock, bar};
 use crate::{Report, folders};
 use develop::{Darkroom, Developed, Distance, coded, differences, on_chart};
 use frame::Frame;
-use page::{Row, Section};
 use plan::Sheet;
 
 /// The sheet of frame buffers, which has no frame.
@@ -34,25 +32,34 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
         None => folders::output("compare")?,
     };
     let mut frames = vec![clock.time("scene", frame::scene)?, frame::chart()?];
+    if sheets.iter().any(Sheet::is_on_film) {
+        frames.push(clock.time("scene", || frame::scene_on_film(&frames[0]))?);
+    }
     for path in &arguments.pictures {
         let mut user = clock.time("read", || frame::user(path, arguments.ev))?;
-        if frames.iter().any(|frame| frame.name == user.name) {
-            user.name = format!("{}_{}", user.name, frames.len());
+        if frames.iter().any(|frame| frame.name == user[0].name) {
+            let name = format!("{}_{}", user[0].name, frames.len());
+            user.iter_mut().for_each(|frame| frame.name.clone_from(&name));
         }
-        frames.push(user);
+        frames.extend(user);
     }
     let chart = frame::chart_colours()?;
     let mut darkroom = Darkroom::new(own.and_then(|own| own.films));
     let mut sections = Vec::new();
-    let progress = bar("comparing", (frames.len() * sheets.len()) as u64);
+    let of = |frame: &Frame| {
+        let is_on_film = frame.on_film.is_some();
+        sheets.iter().filter(move |sheet| sheet.is_on_film() == is_on_film)
+    };
+    let progress = bar("comparing", frames.iter().map(|frame| of(frame).count() as u64).sum());
     for frame in &frames {
         darkroom.change_frame();
         let mut drafts = Vec::new();
-        for sheet in &sheets {
+        for sheet in of(frame) {
             drafts.push(clock.time("develop", || draft(&mut darkroom, frame, sheet, &chart))?);
             progress.inc(1);
         }
-        let drawn: Result<Vec<Section>> = clock.time("draw", || drafts.into_par_iter().map(Draft::drawn).collect());
+        let drawn: Result<Vec<SheetSection>> =
+            clock.time("draw", || drafts.into_par_iter().map(Draft::drawn).collect());
         sections.extend(drawn?);
     }
     progress.finish_and_clear();
@@ -61,7 +68,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Report> {
     }
     let json_sections: Vec<Value> = sections.iter().map(as_json).collect();
     let mut files = AtomicFiles::in_folder(&folder);
-    files.add("index.html", page::page(&sections).into_bytes());
+    files.add("index.html", sheet_page(&sections).into_bytes());
     let mut text = String::new();
     for section in sections {
         figures(&mut text, &section);
@@ -88,13 +95,13 @@ fn chosen(names: &[String], own: Option<&Process>) -> Result<Vec<Sheet>> {
 
 /// A sheet whose pictures are developed.
 struct Draft {
-    section: Section,
+    section: SheetSection,
     columns: usize,
     tiles: Vec<Tile>,
 }
 
 impl Draft {
-    fn drawn(self) -> Result<Section> {
+    fn drawn(self) -> Result<SheetSection> {
         let Self { mut section, columns, tiles } = self;
         section.png = contact_sheet(&section.title, columns, &tiles)?;
         Ok(section)
@@ -104,19 +111,23 @@ impl Draft {
 fn draft(darkroom: &mut Darkroom, frame: &Frame, sheet: &Sheet, chart: &[[f64; 3]]) -> Result<Draft> {
     let developed: Vec<Developed> = sheet.shots.iter().map(|shot| darkroom.develop(frame, shot)).collect();
     let looks: Vec<_> = sheet.shots.iter().map(|shot| darkroom.look(&shot.keys).ok()).collect();
-    let made: Result<Vec<(Tile, Option<Row>)>> = (0..sheet.shots.len())
+    let made: Result<Vec<(Tile, Option<SheetRow>)>> = (0..sheet.shots.len())
         .into_par_iter()
         .map(|i| {
             let shot = &sheet.shots[i];
             let row = match (shot.beside, &developed[i], shot.beside.map(|b| &developed[b])) {
                 (Some(b), Ok(turned), Some(Ok(plain))) => {
                     let differences = frame.spread(&differences(plain, turned)?);
-                    let looks = looks[b].as_ref().zip(looks[i].as_ref()).filter(|_| shot.ev == 0);
-                    Some(Row {
+                    let distance = Distance::of(&differences);
+                    let comparable = shot.ev == 0 && !sheet.is_on_film();
+                    let looks = looks[b].as_ref().zip(looks[i].as_ref()).filter(|_| comparable);
+                    Some(SheetRow {
                         shot: shot.caption.clone(),
                         beside: sheet.shots[b].caption.clone(),
-                        here: Distance::of(&differences),
-                        chart: looks.map(|(plain, turned)| on_chart(plain, turned, chart)).transpose()?,
+                        here: distance.numbers(),
+                        chart: looks
+                            .map(|(plain, turned)| on_chart(plain, turned, chart).map(Distance::numbers))
+                            .transpose()?,
                         note: String::new(),
                         picture: Some(difference_map(frame.width as u32, &differences)?),
                     })
@@ -124,7 +135,8 @@ fn draft(darkroom: &mut Darkroom, frame: &Frame, sheet: &Sheet, chart: &[[f64; 3
                 _ => None,
             };
             let figures = row.as_ref().map_or_else(String::new, |row| {
-                format!("dE {:.2}, 95% {:.2}, max {:.2}", row.here.mean, row.here.p95, row.here.max)
+                let [mean, p95, max] = row.here;
+                format!("dE {mean:.2}, 95% {p95:.2}, max {max:.2}")
             });
             let tile = Tile {
                 captions: [shot.caption.clone(), figures],
@@ -135,8 +147,8 @@ fn draft(darkroom: &mut Darkroom, frame: &Frame, sheet: &Sheet, chart: &[[f64; 3
             Ok((tile, row))
         })
         .collect();
-    let (tiles, rows): (Vec<Tile>, Vec<Option<Row>>) = made?.into_iter().unzip();
-    let section = Section {
+    let (tiles, rows): (Vec<Tile>, Vec<Option<SheetRow>>) = made?.into_iter().unzip();
+    let section = SheetSection {
         file: format!("{}_{}", frame.name, sheet.name),
         title: format!("{}: {}", sheet.title, frame.name),
         text: sheet.text.to_owned(),
@@ -146,19 +158,19 @@ fn draft(darkroom: &mut Darkroom, frame: &Frame, sheet: &Sheet, chart: &[[f64; 3
     Ok(Draft { section, columns: sheet.columns, tiles })
 }
 
-fn bands(darkroom: &mut Darkroom) -> Result<Section> {
+fn bands(darkroom: &mut Darkroom) -> Result<SheetSection> {
     let look = darkroom.look(&plan::usual(onelight::DEFAULT_CAMERA)?).map_err(anyhow::Error::msg)?;
     let (tiles, bands) = banding::tiles(&look)?;
     let title = "Banding of frame buffers before the film".to_owned();
-    let row = |band: &banding::Band| Row {
+    let row = |band: &banding::Band| SheetRow {
         shot: band.name.to_owned(),
         beside: "no buffer".to_owned(),
-        here: band.distance,
+        here: band.distance.numbers(),
         chart: None,
         note: format!("largest step {:.2}", band.step),
         picture: None,
     };
-    Ok(Section {
+    Ok(SheetSection {
         file: BANDING.to_owned(),
         png: contact_sheet(&title, 4, &tiles)?,
         text: "A ramp from -7 to +3 stops through K-negative, grey and warm, and its dark part with the contrast stretched. The \
@@ -169,18 +181,20 @@ fn bands(darkroom: &mut Darkroom) -> Result<Section> {
     })
 }
 
-fn figures(text: &mut String, section: &Section) {
+fn figures(text: &mut String, section: &SheetSection) {
     let _ = writeln!(text, "{:46} {:>20}  {:>20}", section.title, "mean, 95 %, max", "ColorChecker +-2");
     for row in &section.rows {
-        let of = |d: Distance| format!("{:.2} {:.2} {:.2}", d.mean, d.p95, d.max);
+        let of = |[mean, p95, max]: [f64; 3]| format!("{mean:.2} {p95:.2} {max:.2}");
         let chart = row.chart.map(of).unwrap_or_default();
         let _ = writeln!(text, "  {:44} {:>20}  {chart:>20}  {}", row.shot, of(row.here), row.note);
     }
 }
 
-fn as_json(section: &Section) -> Value {
+fn as_json(section: &SheetSection) -> Value {
+    let of = |[mean, p95, max]: [f64; 3]| json!({ "mean": mean, "p95": p95, "max": max });
     let rows = section.rows.iter().map(|row| {
-        json!({ "shot": row.shot, "against": row.beside, "here": row.here, "color_checker": row.chart, "note": row.note })
+        let (here, chart) = (of(row.here), row.chart.map(of));
+        json!({ "shot": row.shot, "against": row.beside, "here": here, "color_checker": chart, "note": row.note })
     });
     json!({ "file": format!("{}.png", section.file), "title": section.title, "rows": rows.collect::<Vec<_>>() })
 }
@@ -195,7 +209,7 @@ mod tests {
         let docs = include_str!("../../../../../docs/talk.md");
         let (chart, mut darkroom) = (frame::chart_colours().unwrap(), Darkroom::default());
         let (mut count, mut missing) = (0, Vec::new());
-        for sheet in plan::sheets(None).unwrap() {
+        for sheet in plan::sheets(None).unwrap().iter().filter(|sheet| !sheet.is_on_film()) {
             for shot in sheet.shots.iter().filter(|shot| shot.ev == 0) {
                 let Some(beside) = shot.beside else { continue };
                 let (plain, turned) = (darkroom.look(&sheet.shots[beside].keys), darkroom.look(&shot.keys));

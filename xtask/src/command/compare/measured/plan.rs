@@ -1,9 +1,10 @@
 //! What is put beside what: the comparisons of the talk, and each switch.
 
+use onelight::spatial::{Antihalation, FilmFormat};
 use onelight::{
-    Aim, Approach, Calibration, DyeModel, Error, Filters, FirstControls, HeatGlass, Infrared, InterImageChoice,
-    Matching, PrintCurves, PrinterLight, Process, ProcessKeys, Projector, Reconstruction, Tail, White, WideGamut, Word,
-    Wratten,
+    Aim, Approach, Calibration, DyeModel, EffectChoice, Effects, Error, FilmProcess, Filters, FirstControls, HeatGlass,
+    Infrared, InterImageChoice, Matching, PrintCurves, PrinterLight, Process, ProcessKeys, Projector, Reconstruction,
+    Tail, White, WideGamut, Word, Wratten,
 };
 
 /// One picture: a look at an exposure.
@@ -30,6 +31,11 @@ pub(super) struct Sheet {
 impl Sheet {
     fn new(name: &'static str, title: &'static str, text: &'static str, columns: usize) -> Self {
         Self { name, title, text, columns, shots: Vec::new() }
+    }
+
+    /// Whether it shows what film does to a picture rather than to a colour: on parts of pictures, pixel by pixel.
+    pub(super) fn is_on_film(&self) -> bool {
+        self.shots.iter().all(|shot| shot.keys.film_format.is_some())
     }
 
     /// A shot at normal exposure with nothing to compare it with; its place on the sheet.
@@ -99,6 +105,9 @@ pub(super) fn sheets(own: Option<&Process>) -> Result<Vec<Sheet>, Error> {
         overexposure(&negative),
         as_it_is(&talk),
         matching(&[("Portra 160", &usual("kodak-portra-160")?), ("5219", &usual("kodak-5219")?)]),
+        effects()?,
+        formats()?,
+        antihalation()?,
     ])
 }
 
@@ -303,6 +312,74 @@ fn matching(films: &[(&str, &ProcessKeys)]) -> Sheet {
         sheet.turned(format!("absolute: {name}"), usual, |p| p.matching = Matching::Absolute);
     }
     sheet
+}
+
+/// A film on Super 16 without any effect.
+fn on_film(camera: &str) -> Result<ProcessKeys, Error> {
+    let (off, film_format) = (EffectChoice::Off, Some(FilmFormat::Super16));
+    let effects = Effects { film_format, grain: off, sharpness: off, ..Effects::default() };
+    Ok(ProcessKeys::from(&Process::from(FilmProcess { effects, ..FilmProcess::for_camera(camera)? })))
+}
+
+fn sharp(keys: &mut ProcessKeys) {
+    keys.sharpness = EffectChoice::On;
+}
+
+fn grainy(keys: &mut ProcessKeys) {
+    keys.grain = EffectChoice::On;
+}
+
+fn with_halation(keys: &mut ProcessKeys) {
+    keys.halation = EffectChoice::On;
+}
+
+fn effects() -> Result<Sheet, Error> {
+    let text = "Part of a picture that fills a frame of Super 16, pixel by pixel, about its brightest place. Sharpness is the sheet's: light \
+                scatters, development sharpens edges. Grain is the sheet's: coarser in fast films. Halation rests on a density that no \
+                sheet states, 0.8.";
+    let mut sheet = Sheet::new("effects", "Sharpness, grain, halation", text, 5);
+    for (name, camera) in [("5219", "kodak-5219"), ("5207", "kodak-5207"), ("Ektachrome 100", "kodak-ektachrome-100")] {
+        let plain = sheet.plain(format!("colour alone: {name}"), &on_film(camera)?);
+        sheet.turned(format!("sharpness: {name}"), plain, sharp);
+        sheet.turned(format!("grain: {name}"), plain, grainy);
+        sheet.turned(format!("halation: {name}"), plain, with_halation);
+        sheet.turned(format!("all: {name}"), plain, |p| [sharp, grainy, with_halation].iter().for_each(|turn| turn(p)));
+    }
+    Ok(sheet)
+}
+
+fn formats() -> Result<Sheet, Error> {
+    let text = "The same pixels on films of other widths, with sharpness and grain: the smaller the frame, the coarser its grain, the \
+                softer its edges.";
+    let mut sheet = Sheet::new("formats", "Film formats", text, 5);
+    for (name, camera) in [("5219", "kodak-5219"), ("5203", "kodak-5203")] {
+        let plain = sheet.plain(format!("colour alone: {name}"), &on_film(camera)?);
+        for format in [FilmFormat::Super8, FilmFormat::Super16, FilmFormat::Super35, FilmFormat::Film65] {
+            sheet.turned(format!("{format}: {name}"), plain, |p| {
+                p.film_format = Some(format);
+                [sharp, grainy].iter().for_each(|turn| turn(p));
+            });
+        }
+    }
+    Ok(sheet)
+}
+
+fn antihalation() -> Result<Sheet, Error> {
+    let text = "The layer that keeps light from returning decides everything about halation, and its density is on no sheet: usual ones \
+                are taken to be 0.6 to 1. Without it, as where remjet was stripped for another developer, lamps have red-orange rings.";
+    let mut sheet = Sheet::new("antihalation", "Halation by antihalation layer", text, 5);
+    let plain = sheet.plain("no halation: 5219", &on_film("kodak-5219")?);
+    for density in [1.0, 0.8, 0.6] {
+        sheet.turned(format!("density {density:.1}: 5219"), plain, |p| {
+            with_halation(p);
+            p.antihalation = Antihalation::Density(density);
+        });
+    }
+    sheet.turned("no layer: 5219", plain, |p| {
+        with_halation(p);
+        p.antihalation = Antihalation::None;
+    });
+    Ok(sheet)
 }
 
 #[cfg(test)]

@@ -1,31 +1,35 @@
-//! All sheets on one page that needs nothing but itself.
-
 use std::fmt::Write as _;
 
-use super::develop::Distance;
-
-/// A sheet as PNG with its figures.
-pub(super) struct Section {
-    /// Name of the sheet's file beside the page.
-    pub(super) file: String,
-    pub(super) title: String,
-    pub(super) text: String,
-    pub(super) png: Vec<u8>,
-    pub(super) rows: Vec<Row>,
+/// A contact sheet with the figures of its pictures, as one part of a [`sheet_page`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct SheetSection {
+    /// Its name within the page, of letters, digits and underscores, such as that of the sheet's own file.
+    pub file: String,
+    /// What stands above it.
+    pub title: String,
+    /// What to look for.
+    pub text: String,
+    /// The sheet, as [`contact_sheet`](crate::contact_sheet) draws it.
+    pub png: Vec<u8>,
+    /// Figures of its pictures.
+    pub rows: Vec<SheetRow>,
 }
 
-/// What one shot lies from another.
-pub(super) struct Row {
-    pub(super) shot: String,
-    pub(super) beside: String,
-    /// The distance on the picture that the sheet shows.
-    pub(super) here: Distance,
-    /// On the ColorChecker from -2 to +2 stops.
-    pub(super) chart: Option<Distance>,
-    /// What else the cell says.
-    pub(super) note: String,
-    /// Picture of the differences, as PNG.
-    pub(super) picture: Option<Vec<u8>>,
+/// What one picture of a sheet lies from another.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SheetRow {
+    /// Caption of the picture.
+    pub shot: String,
+    /// Caption of the picture that it is compared with.
+    pub beside: String,
+    /// Mean, 95 % and largest CIEDE2000 on the picture that the sheet shows.
+    pub here: [f64; 3],
+    /// The same on a chart of colours, if there is any.
+    pub chart: Option<[f64; 3]>,
+    /// What else the row says.
+    pub note: String,
+    /// The differences as a picture, PNG.
+    pub picture: Option<Vec<u8>>,
 }
 
 const HEAD: &str = "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
@@ -38,8 +42,24 @@ td:first-child,th:first-child,td:nth-child(2),th:nth-child(2){text-align:left}su
 <p>Each sheet as PNG, and under it what its pictures differ by: CIEDE2000 of the display colours, mean, 95 % and maximum, on the \
 picture shown and on the ColorChecker from -2 to +2 stops. Difference pictures: black 0, red 5, yellow 10, white 20 and more.</p>\n";
 
-/// The page as HTML, with all pictures in it.
-pub(super) fn page(sections: &[Section]) -> String {
+/// The sheets as one HTML page that needs nothing else: all pictures are in it.
+///
+/// ```
+/// use onelight_charts::{SheetRow, SheetSection, sheet_page};
+/// let row = SheetRow {
+///     shot: "one white lamp".into(),
+///     beside: "separations".into(),
+///     here: [1.9, 4.2, 7.0],
+///     chart: None,
+///     note: String::new(),
+///     picture: None,
+/// };
+/// let (title, text) = ("Lights".into(), "White light costs chroma.".into());
+/// let page = sheet_page(&[SheetSection { file: "lights".into(), title, text, png: Vec::new(), rows: vec![row] }]);
+/// assert!(page.contains("<h2 id=\"lights\">Lights</h2>") && page.contains("<td>4.20"));
+/// ```
+#[must_use]
+pub fn sheet_page(sections: &[SheetSection]) -> String {
     let mut html = HEAD.to_owned();
     html.push_str("<ul>\n");
     for section in sections {
@@ -47,7 +67,7 @@ pub(super) fn page(sections: &[Section]) -> String {
     }
     html.push_str("</ul>\n");
     for section in sections {
-        let Section { file, title, text, png, rows } = section;
+        let SheetSection { file, title, text, png, rows } = section;
         let (file, title) = (escaped(file), escaped(title));
         let _ = writeln!(html, "<h2 id=\"{file}\">{title}</h2>\n<p>{}</p>", escaped(text));
         let _ = writeln!(html, "<img alt=\"{title}\" src=\"data:image/png;base64,{}\">", base64(png));
@@ -58,15 +78,15 @@ pub(super) fn page(sections: &[Section]) -> String {
     html
 }
 
-fn table(html: &mut String, rows: &[Row]) {
+fn table(html: &mut String, rows: &[SheetRow]) {
     html.push_str(
         "<table>\n<tr><th>picture<th>against<th>mean<th>95 %<th>max<th>chart: mean<th>95 %<th>max<th><th>difference\n",
     );
     for row in rows {
-        let Distance { mean, p95, max } = row.here;
+        let [mean, p95, max] = row.here;
         let chart = row.chart.map_or_else(
             || "<td><td><td>".to_owned(),
-            |d| format!("<td>{:.2}<td>{:.2}<td>{:.2}", d.mean, d.p95, d.max),
+            |[mean, p95, max]| format!("<td>{mean:.2}<td>{p95:.2}<td>{max:.2}"),
         );
         let picture = row.picture.as_ref().map_or_else(String::new, |png| {
             let data = base64(png);
@@ -119,8 +139,8 @@ mod tests {
 
     #[test]
     fn a_page_asks_nothing_of_the_network() {
-        let distance = Distance { mean: 1.0, p95: 2.0, max: 3.0 };
-        let row = Row {
+        let distance = [1.0, 2.0, 3.0];
+        let row = SheetRow {
             shot: "a < b".to_owned(),
             beside: "c".to_owned(),
             here: distance,
@@ -128,14 +148,14 @@ mod tests {
             note: String::new(),
             picture: Some(vec![1, 2, 3]),
         };
-        let section = Section {
+        let section = SheetSection {
             file: "x".to_owned(),
             title: "T & t".to_owned(),
             text: "words".to_owned(),
             png: vec![0; 4],
             rows: vec![row],
         };
-        let page = page(&[section]);
+        let page = sheet_page(&[section]);
         assert!(
             !page.contains("http")
                 && !page.contains("<script")
