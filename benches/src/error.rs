@@ -64,6 +64,12 @@ impl From<onelight::film::Error> for Error {
     }
 }
 
+impl From<onelight::spatial::Error> for Error {
+    fn from(error: onelight::spatial::Error) -> Self {
+        onelight::Error::from(error).into()
+    }
+}
+
 impl From<onelight::spectra::Error> for Error {
     fn from(error: onelight::spectra::Error) -> Self {
         onelight::Error::from(error).into()

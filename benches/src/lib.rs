@@ -10,6 +10,7 @@ pub mod buffers;
 mod calendar;
 pub mod certified_pairs;
 mod described_look;
+pub mod effect_decisions;
 mod error;
 pub mod fidelity;
 mod form;

@@ -4,6 +4,7 @@ use super::peers::Elsewhere;
 use super::scope::Scope;
 use super::stopwatch::Timing;
 use super::studies::{Growth, Studies};
+use crate::effect_decisions::DecisionSummary;
 
 /// Everything that is on the page.
 pub(super) struct Contents {
@@ -19,6 +20,8 @@ pub(super) struct Contents {
     pub(super) looks: Vec<(Look, Studies)>,
     /// How cost grows, measured on the first look.
     pub(super) growth: Growth,
+    /// Whether `auto` leaves out what can be seen.
+    pub(super) decisions: [DecisionSummary; 2],
     pub(super) elsewhere: Elsewhere,
     /// How long each part took, in words.
     pub(super) clock: String,

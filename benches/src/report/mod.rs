@@ -36,6 +36,7 @@ pub use self::peers::Elsewhere;
 pub use self::scope::Scope;
 use self::studies::{Studies, growth};
 use crate::described_look::DescribedLook;
+use crate::effect_decisions::decisions;
 use crate::error::{Error, Result};
 use crate::progress::OnProgress;
 
@@ -87,6 +88,7 @@ pub fn measure(
         return Err(Error::new("no look was named, expected one or more to measure"));
     };
     let growth = listener.time("growth", || growth(first, look, &frame, scope, progress))?;
+    let decisions = listener.time("decisions", || decisions(scope.decision_cases(), progress))?;
     Ok(Report(Contents {
         scope,
         machine: Machine::here(),
@@ -97,6 +99,7 @@ pub fn measure(
         copy,
         looks: studied,
         growth,
+        decisions,
         elsewhere,
         clock: String::new(),
     }))
@@ -134,6 +137,7 @@ impl Report {
             "copy": contents.copy,
             "looks": looks,
             "growth": contents.growth,
+            "decisions": contents.decisions,
             "elsewhere": contents.elsewhere,
             "seconds": seconds,
         })

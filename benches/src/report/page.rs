@@ -140,7 +140,9 @@ fn studies(body: &mut String, contents: &Contents) {
     body.push_str(&table::growth("Milliseconds for a picture, one thread", "megapixels", &growth.picture));
     body.push_str(&table::growth("Nanoseconds a pixel, one thread", "nodes along a side", &growth.table));
     body.push_str(&table::effects(&growth.effects));
+    body.push_str(&table::picture_effects(&growth.picture_effects));
     body.push_str(&table::growth("Megapixels a second", "threads", &growth.threads));
+    body.push_str(&table::decisions(&contents.decisions));
 }
 
 fn other_programs(body: &mut String, contents: &Contents) {

@@ -1,5 +1,7 @@
 use serde::Serialize;
 
+use crate::effect_decisions::Cases;
+
 /// How many forms, colours and rounds are measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -16,6 +18,14 @@ impl Scope {
         match self {
             Self::Full => 15,
             Self::Quick => 3,
+        }
+    }
+
+    /// Pictures that it is looked at whether effects can be seen in them.
+    pub(super) fn decision_cases(self) -> Cases {
+        match self {
+            Self::Full => Cases::All,
+            Self::Quick => Cases::Few,
         }
     }
 

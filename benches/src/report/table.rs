@@ -6,8 +6,9 @@ use super::forms::sum;
 use super::measure::{Look, Row};
 use super::peers::Peer;
 use super::stopwatch::Timing;
-use super::studies::{CurveRow, EffectRow, ExposureRow, GridRow, Measured};
+use super::studies::{CurveRow, EffectRow, ExposureRow, GridRow, Measured, PictureEffectRow};
 use super::text::{bytes, escaped, figure, plain};
+use crate::effect_decisions::DecisionSummary;
 
 /// A cell: what is written, and the number that it is sorted by.
 pub(super) enum Cell {
@@ -181,6 +182,56 @@ pub(super) fn effects(rows: &[EffectRow]) -> String {
         .collect();
     let columns = ["effects", "structured (ns)", "of none", "direct (ns)", "of none"];
     table("Effects of the film, nanoseconds a pixel, one thread", &columns, &rows)
+}
+
+/// What sharpness, halation and grain add to a pixel's time.
+pub(super) fn picture_effects(rows: &[PictureEffectRow]) -> String {
+    let alone = rows.iter().find(|row| row.what == PictureEffectRow::COLOUR_ALONE);
+    let rows: Vec<Vec<Cell>> = rows
+        .iter()
+        .map(|row| {
+            let mut cells = vec![Cell::Text(row.what.to_owned())];
+            for (here, alone) in
+                [(row.one_thread, alone.map(|row| row.one_thread)), (row.all_threads, alone.map(|row| row.all_threads))]
+            {
+                cells.push(Cell::figure(here.ns));
+                cells.push(alone.map_or_else(Cell::none, |alone| Cell::figure(here.ns - alone.ns)));
+            }
+            cells
+        })
+        .collect();
+    let columns =
+        ["a picture's way", "one thread (ns)", "more than colour alone", "all threads (ns)", "more than colour alone"];
+    table("Sharpness, halation and grain of KODAK VISION3 500T 5219 on Super 35, nanoseconds a pixel", &columns, &rows)
+}
+
+/// What `auto` leaves out, and whether it could be seen.
+pub(super) fn decisions(summaries: &[DecisionSummary]) -> String {
+    let pair = |found: Vec<f64>, worst: fn(f64, f64) -> f64| {
+        let all = found.iter().copied().reduce(worst);
+        [Cell::count(found.len()), all.map_or_else(Cell::none, Cell::figure)]
+    };
+    let rows: Vec<Vec<Cell>> = summaries
+        .iter()
+        .map(|summary| {
+            let mut cells = vec![Cell::Text(summary.effect.clone()), Cell::figure(summary.limit)];
+            cells.extend([Cell::count(summary.cases.len()), Cell::count(summary.left_out())]);
+            cells.extend(pair(summary.missed(), f64::max));
+            cells.extend(pair(summary.needless(), f64::min));
+            cells
+        })
+        .collect();
+    let columns = [
+        "effect",
+        "seen from (dE)",
+        "cases",
+        "left out",
+        "of these seen in truth",
+        "worst (dE)",
+        "run, not seen in truth",
+        "least (dE)",
+    ];
+    table("What auto leaves out of parts of the fixture scene and of a camera's picture", &columns, &rows)
 }
 
 pub(super) fn buffers(steps: &[(&'static str, f64)]) -> String {

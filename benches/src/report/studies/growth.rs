@@ -7,6 +7,7 @@ use onelight::lut::{Channels, Interpolation, Lut3d, PixelsMut, Storage};
 use serde::Serialize;
 
 use super::effects::{EffectRow, effects};
+use super::picture_effects::{PictureEffectRow, picture_effects};
 use crate::error::{Error, Result};
 use crate::progress::{OnProgress, Steps};
 use crate::report::forms::{Kind, Made};
@@ -37,6 +38,8 @@ pub(in crate::report) struct Growth {
     pub(in crate::report) nodes: Vec<Measured>,
     /// The usual forms with and without what films do beyond curves and dyes.
     pub(in crate::report) effects: Vec<EffectRow>,
+    /// Sharpness, halation and grain.
+    pub(in crate::report) picture_effects: Vec<PictureEffectRow>,
     /// Threads, and megapixels for each second.
     pub(in crate::report) threads: Vec<Measured>,
 }
@@ -54,7 +57,7 @@ pub(in crate::report) fn growth(
     progress: OnProgress<'_>,
 ) -> Result<Growth> {
     let forms = usual(&prepared.made);
-    let progress = Steps::new("growth", 4, progress);
+    let progress = Steps::new("growth", 5, progress);
     let buffers = 2 * frame.strip(0, STRIP_ROWS)?.size().iter().product::<usize>() * 3 * size_of::<f32>();
     let picture = picture(&forms, frame, scope)?;
     progress.step();
@@ -62,9 +65,11 @@ pub(in crate::report) fn growth(
     progress.step();
     let effects = effects(prepared, frame, scope)?;
     progress.step();
+    let picture_effects = picture_effects(frame, scope)?;
+    progress.step();
     let threads = over_threads(&forms, frame, scope)?;
     progress.step();
-    Ok(Growth { picture, buffers, table, nodes: over_nodes(look), effects, threads })
+    Ok(Growth { picture, buffers, table, nodes: over_nodes(look), effects, picture_effects, threads })
 }
 
 /// One form of each kind: of tables the largest of up to 33 nodes, of sums of exponentials the usual one.

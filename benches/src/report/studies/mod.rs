@@ -4,6 +4,7 @@ mod colours;
 mod curves;
 mod effects;
 mod growth;
+mod picture_effects;
 mod spectral;
 
 use serde::Serialize;
@@ -11,6 +12,7 @@ use serde::Serialize;
 pub(super) use curves::CurveRow;
 pub(super) use effects::EffectRow;
 pub(super) use growth::{Growth, Measured, growth};
+pub(super) use picture_effects::PictureEffectRow;
 pub(super) use spectral::{ExposureRow, GridRow};
 
 use self::colours::Colours;
