@@ -3,6 +3,7 @@
 //! - [`stock_plot`]: sensitivity, characteristic curves and dyes of a stock
 //! - [`contact_sheet`]: pictures side by side, each under two lines of captions
 //! - [`difference_map`]: colour differences, pixel by pixel, as colours
+//! - [`mean_p95_max`]: what a caption says of differences
 //! - [`sheet_page`]: contact sheets with their figures as one HTML page
 //! - [`paste`] and [`caption`]: for sheets of another layout
 //!
@@ -14,7 +15,7 @@ mod sheet;
 mod sheet_page;
 mod stock_plot;
 
-pub use contact_sheet::{TILE_WIDTH, Tile, contact_sheet, difference_map};
+pub use contact_sheet::{TILE_WIDTH, Tile, contact_sheet, difference_map, mean_p95_max};
 pub use error::Error;
 pub use sheet::{BACKGROUND, caption, paste};
 pub use sheet_page::{SheetRow, SheetSection, sheet_page};

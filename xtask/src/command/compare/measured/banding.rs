@@ -3,9 +3,9 @@
 use anyhow::Result;
 use onelight::Look;
 use onelight_benches::buffers::{CASES, Case, largest_step};
-use onelight_charts::Tile;
+use onelight_charts::{Tile, mean_p95_max};
 
-use super::develop::{Distance, coded, differences};
+use super::develop::{coded, differences};
 use super::frame::WIDTH;
 
 /// Rows of a ramp, and its ends in stops about mid grey.
@@ -19,7 +19,8 @@ pub(super) struct Band {
     pub(super) name: &'static str,
     /// Largest visible step on a grey ramp, CIEDE2000.
     pub(super) step: f64,
-    pub(super) distance: Distance,
+    /// Mean, 95 % and largest difference on the ramp, CIEDE2000.
+    pub(super) distance: [f64; 3],
 }
 
 /// A pair of tiles for the ramp without a buffer and with each: as it is, and its dark part stretched.
@@ -30,7 +31,7 @@ pub(super) fn tiles(look: &Look) -> Result<(Vec<Tile>, Vec<Band>)> {
     pair(&mut tiles, "no buffer", String::new(), &exact, &dark, &dark);
     for case in &CASES {
         let shown = developed(look, RAMP, Some(case));
-        let distance = Distance::of(&differences(&exact, &shown)?);
+        let distance = mean_p95_max(&differences(&exact, &shown)?);
         let step = largest_step(case, look)?;
         let figures = format!("largest step dE {step:.2}");
         pair(&mut tiles, case.name, figures, &shown, &developed(look, DARK, Some(case)), &dark);

@@ -8,6 +8,7 @@ use onelight::baked::{Form, Recipe};
 use onelight::spatial::Frame as FilmFrame;
 use onelight::spectra::{DisplayDifference, DisplayLinear, RgbSpace};
 use onelight::{FilmEffects, FilmSteps, Films, Look, ProcessKeys, TransferCurve};
+use onelight_charts::mean_p95_max;
 use rayon::prelude::*;
 
 use super::frame::{Frame, OnFilm};
@@ -89,29 +90,6 @@ pub(super) fn coded(linear: &[[f32; 3]]) -> Vec<[f32; 3]> {
     linear.iter().map(|rgb| rgb.map(|v| TransferCurve::Srgb.encode(f64::from(v)) as f32)).collect()
 }
 
-/// Difference of two pictures: CIEDE2000 of the display colours, clipped to the display.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Distance {
-    pub(super) mean: f64,
-    pub(super) p95: f64,
-    pub(super) max: f64,
-}
-
-impl Distance {
-    pub(super) fn of(differences: &[f32]) -> Self {
-        let mut sorted = differences.to_vec();
-        sorted.sort_by(f32::total_cmp);
-        let at = |part: f64| sorted.get((part * (sorted.len() as f64 - 1.0)) as usize).copied().map_or(0.0, f64::from);
-        let mean = differences.iter().copied().map(f64::from).sum::<f64>() / differences.len().max(1) as f64;
-        Self { mean, p95: at(0.95), max: at(1.0) }
-    }
-
-    /// Mean, 95 % and maximum.
-    pub(super) fn numbers(self) -> [f64; 3] {
-        [self.mean, self.p95, self.max]
-    }
-}
-
 /// The difference of each colour of two pictures, CIEDE2000.
 pub(super) fn differences(a: &[[f32; 3]], b: &[[f32; 3]]) -> Result<Vec<f32>> {
     let difference = DisplayDifference::new(&RgbSpace::SRGB)?;
@@ -121,9 +99,9 @@ pub(super) fn differences(a: &[[f32; 3]], b: &[[f32; 3]]) -> Result<Vec<f32>> {
 }
 
 /// What one look lies from another on the ColorChecker from -2 to +2 stops: the figures of docs/talk.md.
-pub(super) fn on_chart(plain: &Look, turned: &Look, chart: &[[f64; 3]]) -> Result<Distance> {
+pub(super) fn on_chart(plain: &Look, turned: &Look, chart: &[[f64; 3]]) -> Result<[f64; 3]> {
     let difference = DisplayDifference::new(&RgbSpace::SRGB)?;
     let colours = (-2..=2).flat_map(|ev| chart.iter().map(move |rgb| rgb.map(|v| v * f64::from(ev).exp2())));
     let between = |rgb: [f64; 3]| difference.between(plain.develop_linear(rgb), turned.develop_linear(rgb)) as f32;
-    Ok(Distance::of(&colours.map(between).collect::<Vec<f32>>()))
+    Ok(mean_p95_max(&colours.map(between).collect::<Vec<f32>>()))
 }

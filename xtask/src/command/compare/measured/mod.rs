@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 use anyhow::Result;
 use onelight::Process;
-use onelight_charts::{SheetRow, SheetSection, Tile, contact_sheet, difference_map, sheet_page};
+use onelight_charts::{SheetRow, SheetSection, Tile, contact_sheet, difference_map, mean_p95_max, sheet_page};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -15,7 +15,7 @@ use super::Arguments;
 use crate::atomic_file::AtomicFiles;
 use crate::progress::{Clock, bar};
 use crate::{Report, folders};
-use develop::{Darkroom, Developed, Distance, coded, differences, on_chart};
+use develop::{Darkroom, Developed, coded, differences, on_chart};
 use frame::Frame;
 use plan::Sheet;
 
@@ -118,16 +118,13 @@ fn draft(darkroom: &mut Darkroom, frame: &Frame, sheet: &Sheet, chart: &[[f64; 3
             let row = match (shot.beside, &developed[i], shot.beside.map(|b| &developed[b])) {
                 (Some(b), Ok(turned), Some(Ok(plain))) => {
                     let differences = frame.spread(&differences(plain, turned)?);
-                    let distance = Distance::of(&differences);
                     let comparable = shot.ev == 0 && !sheet.is_on_film();
                     let looks = looks[b].as_ref().zip(looks[i].as_ref()).filter(|_| comparable);
                     Some(SheetRow {
                         shot: shot.caption.clone(),
                         beside: sheet.shots[b].caption.clone(),
-                        here: distance.numbers(),
-                        chart: looks
-                            .map(|(plain, turned)| on_chart(plain, turned, chart).map(Distance::numbers))
-                            .transpose()?,
+                        here: mean_p95_max(&differences),
+                        chart: looks.map(|(plain, turned)| on_chart(plain, turned, chart)).transpose()?,
                         note: String::new(),
                         picture: Some(difference_map(frame.width as u32, &differences)?),
                     })
@@ -165,7 +162,7 @@ fn bands(darkroom: &mut Darkroom) -> Result<SheetSection> {
     let row = |band: &banding::Band| SheetRow {
         shot: band.name.to_owned(),
         beside: "no buffer".to_owned(),
-        here: band.distance.numbers(),
+        here: band.distance,
         chart: None,
         note: format!("largest step {:.2}", band.step),
         picture: None,
@@ -214,7 +211,7 @@ mod tests {
                 let Some(beside) = shot.beside else { continue };
                 let (plain, turned) = (darkroom.look(&sheet.shots[beside].keys), darkroom.look(&shot.keys));
                 let (Ok(plain), Ok(turned)) = (plain, turned) else { continue };
-                let Distance { mean, p95, max } = on_chart(&plain, &turned, &chart).unwrap();
+                let [mean, p95, max] = on_chart(&plain, &turned, &chart).unwrap();
                 let row = format!("| {} | {mean:.2} | {p95:.2} | {max:.2} |", shot.caption);
                 if !docs.lines().any(|line| line.starts_with(&row)) {
                     missing.push(row);
