@@ -14,18 +14,30 @@ OUTPUT = TOP / "target" / "onelight"
 
 def programs():
     """Builds our programs; paths of `peer` and `xtask`."""
-    command = ["cargo", "build", "--release", "--bins", "-p", "onelight-benches", "-p", "xtask"]
-    built = subprocess.run(
+    found = built(["cargo", "build", "--release", "--bins", "-p", "onelight-benches", "-p", "xtask"])
+    return found["peer"], found["xtask"]
+
+
+def filmr():
+    """Builds filmr's side, a package of its own; its path."""
+    manifest, target = HERE / "filmr" / "Cargo.toml", TOP / "target" / "filmr"
+    command = ["cargo", "build", "--release", "--manifest-path", str(manifest), "--target-dir", str(target)]
+    return built(command)["filmr-peer"]
+
+
+def built(command):
+    """Runs a build; names and paths of the programs."""
+    done = subprocess.run(
         [*command, "--message-format=json-render-diagnostics"], cwd=TOP, stdout=subprocess.PIPE, text=True
     )
-    if built.returncode:
-        sys.exit(f"{' '.join(command)}: ended with status {built.returncode}")
+    if done.returncode:
+        sys.exit(f"{' '.join(command)}: ended with status {done.returncode}")
     found = {}
-    for line in built.stdout.splitlines():
+    for line in done.stdout.splitlines():
         message = json.loads(line)
         if message.get("executable"):
             found[message["target"]["name"]] = message["executable"]
-    return found["peer"], found["xtask"]
+    return found
 
 
 def python():

@@ -20,6 +20,7 @@ from protocol import Child, allowed_cpus
 from results import Row, Target
 
 OCIO, FILM_LUT, COPY, PLAIN = "OpenColorIO", "spectral-film-lut", "copy of the f32 picture", "our plain, f32 to f32"
+FILMR, DIRECT_U8 = "filmr", "direct, f32 to u8"
 PLAIN_F32, PLAIN_U8 = "plain, f32 to f32", "plain, f32 to u8"
 STRUCTURED, DISPLAY = "structured, f32 to f32", "structured of display entries, f32 to f32"
 DIRECT = "direct, f32 to f32"
@@ -59,6 +60,7 @@ class Run:
         self.faults = []
         self.begin = time.monotonic()
         self.peer, self.xtask = environment.programs()
+        self.filmr = environment.filmr() if arguments.filmr else None
         self.python = environment.python()
 
     def say(self, sentence):
@@ -143,6 +145,19 @@ class Run:
                 times = self.turns(apply(form, "f32"), apply(without, "f32"))
                 self.add(job, job_without, threads, "warm", *times, pixels)
 
+    def filmr_pictures(self, threads):
+        """A whole film of filmr's, its random and spatial effects off as far as it has switches, beside ours."""
+        if self.filmr is None:
+            return
+        with self.ours(threads) as ours, Child(FILMR, [self.filmr], self.cpus_for(threads)) as theirs:
+            theirs.ask("threads", threads)
+            self.read(ours)
+            self.read(theirs)
+            ours.ask("build", "direct")
+            ours.ask("apply", "direct", "u8", 1)
+            times = self.turns(lambda: ours.ask("apply", "direct", "u8", 1), lambda: theirs.ask("apply", 1), 3)
+            self.add(DIRECT_U8, FILMR, threads, "warm", *times, self.width * self.height)
+
     def cold_pictures(self, threads):
         for kind in ["f32", "u8"]:
             a, b = [], []
@@ -207,6 +222,7 @@ class Run:
             self.shaper = ours.ask("make", self.folder, self.width, self.height)
         for threads in sorted({1, len(self.cpus)}):
             self.pictures(threads)
+            self.filmr_pictures(threads)
             self.cold_pictures(threads)
             self.bakes(threads)
         self.processes()
@@ -217,6 +233,7 @@ def main():
     parser.add_argument("--quick", action="store_true", help="a small picture, few turns: whether it runs")
     help = "the vector instructions that ours has to do with, such as AVX2; the best of the machine if not given"
     parser.add_argument("--level", metavar="NAME", help=help)
+    parser.add_argument("--filmr", action="store_true", help="filmr too, which is compiled for it (minutes)")
     arguments = parser.parse_args()
 
     # Before building, which loads the machine itself.
