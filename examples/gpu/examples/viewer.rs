@@ -1,26 +1,26 @@
 //! A window whose frame is developed on film: `cargo run -p onelight-gpu-examples --features window --example viewer`.
 //!
-//! Up and down change the exposure by a third of a stop, left and right the stock; each is an upload into the pass's
-//! resources. Escape ends.
+//! Up and down change the exposure by a third of a stop, left and right the film. `g`, `s` and `h` turn grain, sharpness and halation on and
+//! off, `n` takes the antihalation layer away, `f` goes through the formats of film. `w` changes what a viewer takes for white, `a` what grey
+//! is aimed at; `r`, `t` and `b` give the printer's red, green and blue light a point more, with shift one less. The title says what is on.
+//! Escape ends.
 
 use std::error::Error;
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use onelight::DirectSettings;
-use onelight_gpu::{FilmPass, wgpu};
+use onelight_gpu::wgpu;
+use onelight_gpu_examples::live_frame::LiveFrame;
+use onelight_gpu_examples::live_look::{Change, LiveLook};
 use onelight_gpu_examples::scene;
-use onelight_lut::DirectForm;
 use pollster::block_on;
-use wgpu::{CurrentSurfaceTexture, Device, Queue, Surface, SurfaceConfiguration, Texture};
+use wgpu::{CurrentSurfaceTexture, Device, Queue, Surface, SurfaceConfiguration, Texture, TextureViewDescriptor};
 use winit::application::ApplicationHandler;
 use winit::dpi::LogicalSize;
 use winit::event::{ElementState, KeyEvent, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, EventLoop, OwnedDisplayHandle};
 use winit::keyboard::{Key, NamedKey};
 use winit::window::{Window, WindowId};
-
-const STOCKS: [&str; 5] = ["kodak-5207", "kodak-5219", "kodak-portra-400", "kodak-ektachrome-100", "fuji-velvia-50"];
 
 fn main() -> ExitCode {
     match run() {
@@ -33,23 +33,16 @@ fn main() -> ExitCode {
 }
 
 fn run() -> Result<(), Box<dyn Error>> {
-    let forms = STOCKS.map(|stock| -> Result<DirectForm, onelight::Error> {
-        onelight::Process::for_camera(stock)?.compile()?.direct(&DirectSettings::default())
-    });
-    let forms = forms.into_iter().collect::<Result<Vec<_>, _>>()?;
     let event_loop = EventLoop::new()?;
     let display = event_loop.owned_display_handle();
-    let mut viewer = Viewer { display, forms, stock: 0, thirds: 0, frame: None, done: Ok(()) };
+    let mut viewer = Viewer { display, look: LiveLook::new()?, frame: None, done: Ok(()) };
     event_loop.run_app(&mut viewer)?;
     viewer.done
 }
 
 struct Viewer {
     display: OwnedDisplayHandle,
-    forms: Vec<DirectForm>,
-    stock: usize,
-    /// Exposure in thirds of a stop.
-    thirds: i32,
+    look: LiveLook,
     frame: Option<Frame>,
     /// What ended the program, if not the user.
     done: Result<(), Box<dyn Error>>,
@@ -63,17 +56,10 @@ struct Frame {
     device: Device,
     queue: Queue,
     hdr: Texture,
-    film: FilmPass,
+    film: LiveFrame,
 }
 
 impl Viewer {
-    /// The stock in use, with the exposure in its first matrix.
-    fn form(&self) -> Result<DirectForm, Box<dyn Error>> {
-        let form = self.forms[self.stock].clone();
-        let expose = form.parts().expose.brighter(self.thirds as f32 / 3.0);
-        Ok(form.with_expose(expose)?)
-    }
-
     fn open(&self, event_loop: &ActiveEventLoop) -> Result<Frame, Box<dyn Error>> {
         let attributes = Window::default_attributes().with_inner_size(LogicalSize::new(960, 540));
         let window = Arc::new(event_loop.create_window(attributes)?);
@@ -84,36 +70,47 @@ impl Viewer {
         let adapter = block_on(instance.request_adapter(&options))?;
         let (device, queue) = block_on(adapter.request_device(&Default::default()))?;
         let size = window.inner_size();
-        let configuration = surface
+        let mut configuration = surface
             .get_default_config(&adapter, size.width.max(1), size.height.max(1))
             .ok_or("the window's surface cannot be drawn to by this adapter")?;
+        // What is written is coded for the display already.
+        configuration.view_formats = vec![configuration.format.remove_srgb_suffix()];
         surface.configure(&device, &configuration);
-        let hdr = scene::texture(&device, &queue, [configuration.width, configuration.height]);
-        let film = FilmPass::new(&device, &queue, &self.form()?, configuration.format)?;
+        let size = [configuration.width, configuration.height];
+        let hdr = scene::texture(&device, &queue, size);
+        let film = LiveFrame::new(&device, &queue, &self.look, size, configuration.view_formats[0])?;
         Ok(Frame { window, surface, configuration, device, queue, hdr, film })
     }
 
-    /// Shows the stock and exposure in use.
-    fn change(&self) -> Result<(), Box<dyn Error>> {
-        let Some(frame) = &self.frame else { return Ok(()) };
-        frame.film.upload(&frame.queue, &self.form()?)?;
-        let title = format!("{}  {:+.1} stops", STOCKS[self.stock], f64::from(self.thirds) / 3.0);
-        frame.window.set_title(&title);
-        frame.window.request_redraw();
-        Ok(())
+    /// Says what is on, and draws it.
+    fn show(&self) {
+        if let Some(frame) = &self.frame {
+            frame.window.set_title(&self.look.title());
+            frame.window.request_redraw();
+        }
     }
 
     fn key(&mut self, event_loop: &ActiveEventLoop, key: &Key) -> Result<(), Box<dyn Error>> {
-        let count = self.forms.len();
-        match key {
-            Key::Named(NamedKey::Escape) => event_loop.exit(),
-            Key::Named(NamedKey::ArrowUp) => self.thirds += 1,
-            Key::Named(NamedKey::ArrowDown) => self.thirds -= 1,
-            Key::Named(NamedKey::ArrowRight) => self.stock = (self.stock + 1) % count,
-            Key::Named(NamedKey::ArrowLeft) => self.stock = (self.stock + count - 1) % count,
-            _ => return Ok(()),
+        let change = match key {
+            Key::Named(NamedKey::Escape) => {
+                event_loop.exit();
+                None
+            }
+            Key::Named(NamedKey::ArrowUp) => Some(Change::Exposure(1)),
+            Key::Named(NamedKey::ArrowDown) => Some(Change::Exposure(-1)),
+            Key::Named(NamedKey::ArrowRight) => Some(Change::Stock(1)),
+            Key::Named(NamedKey::ArrowLeft) => Some(Change::Stock(-1)),
+            Key::Character(letters) => letters.chars().next().and_then(Change::of_letter),
+            _ => None,
+        };
+        let (Some(change), Some(frame)) = (change, &mut self.frame) else { return Ok(()) };
+        match self.look.change(change) {
+            Ok(()) => frame.film.follow(&frame.device, &frame.queue, &self.look, change)?,
+            // No printer reaches it: the look stays.
+            Err(error) => eprintln!("{error}"),
         }
-        self.change()
+        self.show();
+        Ok(())
     }
 }
 
@@ -127,14 +124,17 @@ impl Viewer {
 }
 
 impl Frame {
-    fn resize(&mut self, width: u32, height: u32) {
+    fn resize(&mut self, look: &LiveLook, width: u32, height: u32) -> Result<(), Box<dyn Error>> {
         (self.configuration.width, self.configuration.height) = (width.max(1), height.max(1));
         self.surface.configure(&self.device, &self.configuration);
-        self.hdr = scene::texture(&self.device, &self.queue, [self.configuration.width, self.configuration.height]);
+        let size = [self.configuration.width, self.configuration.height];
+        self.hdr = scene::texture(&self.device, &self.queue, size);
+        self.film = LiveFrame::new(&self.device, &self.queue, look, size, self.configuration.view_formats[0])?;
         self.window.request_redraw();
+        Ok(())
     }
 
-    fn show(&self) -> Result<(), Box<dyn Error>> {
+    fn draw(&mut self) -> Result<(), Box<dyn Error>> {
         let shown = match self.surface.get_current_texture() {
             CurrentSurfaceTexture::Success(texture) | CurrentSurfaceTexture::Suboptimal(texture) => texture,
             CurrentSurfaceTexture::Outdated | CurrentSurfaceTexture::Lost => {
@@ -144,21 +144,12 @@ impl Frame {
             }
             _ => return Ok(()),
         };
-        let view = shown.texture.create_view(&Default::default());
+        let format = self.configuration.view_formats.first().copied();
+        let view = shown.texture.create_view(&TextureViewDescriptor { format, ..Default::default() });
         let mut encoder = self.device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view: &view,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations::default(),
-                })],
-                ..Default::default()
-            });
-            self.film.draw(&mut pass, &self.hdr.create_view(&Default::default()))?;
-            // An interface would be drawn here, over the film.
-        }
+        let hdr = self.hdr.create_view(&Default::default());
+        self.film.draw(&self.device, &self.queue, &mut encoder, &hdr, &view)?;
+        // An interface would be drawn here, over the film.
         self.queue.submit([encoder.finish()]);
         self.queue.present(shown);
         Ok(())
@@ -168,7 +159,7 @@ impl Frame {
 impl ApplicationHandler for Viewer {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         let opened = self.open(event_loop).map(|frame| self.frame = Some(frame));
-        let opened = opened.and_then(|()| self.change());
+        self.show();
         self.end_on_error(event_loop, opened);
     }
 
@@ -178,11 +169,13 @@ impl ApplicationHandler for Viewer {
                 event_loop.exit();
                 Ok(())
             }
-            (WindowEvent::Resized(size), Some(frame)) => {
-                frame.resize(size.width, size.height);
-                Ok(())
+            (WindowEvent::Resized(size), Some(frame)) => frame.resize(&self.look, size.width, size.height),
+            (WindowEvent::RedrawRequested, Some(frame)) => {
+                if self.look.moves() {
+                    frame.window.request_redraw();
+                }
+                frame.draw()
             }
-            (WindowEvent::RedrawRequested, Some(frame)) => frame.show(),
             (
                 WindowEvent::KeyboardInput {
                     event: KeyEvent { logical_key, state: ElementState::Pressed, .. }, ..

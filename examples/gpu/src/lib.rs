@@ -1,7 +1,10 @@
-//! What the programs in `examples/` share: a device that may be missing, and a picture that stands in for a renderer's.
+//! What the programs in `examples/` share: a device that may be missing, a picture that stands in for a renderer's, and a look that follows
+//! keys.
 
 use onelight_gpu::{Error, Headless, HeadlessSettings};
 
+pub mod live_frame;
+pub mod live_look;
 pub mod scene;
 
 /// Opens the fastest graphics card, or a software driver. `None`, and a printed sentence, if there is neither.

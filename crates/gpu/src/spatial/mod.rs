@@ -124,6 +124,15 @@ impl SpatialPass {
         }
     }
 
+    /// Uploads another direct form into the resources that are there, as [`FilmPass::upload`]; the effects stay those of the stage. It
+    /// shows from the next submission on.
+    ///
+    /// # Errors
+    /// As [`FilmPass::upload`].
+    pub fn upload(&self, queue: &Queue, form: &DirectForm) -> Result<(), Error> {
+        self.film.upload(queue, form)
+    }
+
     /// Develops `source` into `target`, both of the stage's size; otherwise as [`FilmPass::encode`].
     ///
     /// # Errors

@@ -159,6 +159,24 @@ fn without_effects_it_is_the_film_pass() {
 }
 
 #[test]
+fn another_exposure_is_an_upload() {
+    let Some(gpu) = gpu() else { return };
+    let all = Wanted { width: 2048, sharpness: true, halation: Some(0.6), grain: true };
+    let (form, stage, format) = (form("kodak-5219"), stage("kodak-5219", all), TextureFormat::Rgba32Float);
+    let brighter = form.clone().with_expose(form.parts().expose.brighter(1.0)).unwrap();
+    let pass = SpatialPass::new(&gpu.device, &gpu.queue, &form, &stage, format).unwrap();
+    pass.upload(&gpu.queue, &brighter).unwrap();
+    let from = source(gpu, SIZE.map(|side| side as u32), format, &pixels());
+    let to = gpu.texture(SIZE.map(|side| side as u32), format, pass.target_usage() | TextureUsages::COPY_SRC).unwrap();
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    pass.encode(&mut encoder, &view(&from), &view(&to)).unwrap();
+    gpu.queue.submit([encoder.finish()]);
+    let found = floats(&gpu.read_back(&to).unwrap());
+    assert_eq!(found, on_card(gpu, &brighter, &stage));
+    assert!(found != on_card(gpu, &form, &stage));
+}
+
+#[test]
 fn frames_have_grain_of_their_own_and_other_sizes_are_refused() {
     let Some(gpu) = gpu() else { return };
     let form = form("kodak-5219");
