@@ -5,7 +5,7 @@ use std::io::Cursor;
 use anyhow::{Context, Result};
 use half::f16;
 use onelight::lut::DirectForm;
-use onelight::{Stock, pairs, stock, stock_ids};
+use onelight::{Stock, StockKind, pairs, stock, stock_ids};
 use onelight_picture::{Chromaticities, Picture, Source};
 use onelight_web::{FilmLook, Keys, look_name, pack};
 use rayon::prelude::*;
@@ -14,7 +14,7 @@ use serde_json::json;
 /// Pixels of the scene across and down.
 const SCENE: (usize, usize) = (720, 405);
 
-/// The direct form of every camera film on all that it is printed on, packed.
+/// The direct form of every camera film as it is or scanned, and on all that it is printed on, packed.
 ///
 /// # Errors
 /// None with the films that are built in.
@@ -22,7 +22,11 @@ pub(crate) fn looks() -> Result<Vec<u8>> {
     let stocks = stock_ids().map(stock).collect::<Result<Vec<_>, _>>()?;
     let looks: Vec<(String, DirectForm)> = pairs(&stocks)
         .into_par_iter()
-        .map(|(camera, print)| look(camera.id(), print.map(Stock::id)))
+        .map(|(camera, print)| {
+            // A negative that is not printed is scanned.
+            let scan = (camera.kind() == StockKind::Negative).then_some("scan");
+            look(camera.id(), print.map(Stock::id).or(scan))
+        })
         .collect::<Result<_>>()?;
     let looks: Vec<(&str, &DirectForm)> = looks.iter().map(|(name, form)| (name.as_str(), form)).collect();
     Ok(pack(&looks))
