@@ -108,6 +108,8 @@ mod bake;
 pub mod baked;
 pub mod certify;
 mod cineon;
+#[cfg(feature = "picture")]
+mod code_light;
 mod direct;
 mod effects;
 mod error;

@@ -7,6 +7,7 @@ use onelight_picture::{
 use onelight_spectra::{Chromaticity, RgbSpace, TransferCurve, finite};
 use rayon::prelude::*;
 
+use crate::code_light::{CodeLight, looked_up};
 use crate::error::Error;
 use crate::input_coding::InputCoding;
 use crate::meter::Meter;
@@ -203,6 +204,8 @@ pub struct PictureLight {
     /// What becomes of alpha: kept unless something else is set here.
     pub coverage: Coverage,
     coding: Coding,
+    /// The light of codes, from the first large band on.
+    codes: CodeLight,
     stored_alpha: StoredAlpha,
     /// From the file's primaries to those of the look; `None` where they are the same.
     to_input: Option<Matrix3<f64>>,
@@ -242,6 +245,7 @@ impl PictureLight {
         let to_input = input.to_input_space(picture, spaces)?;
         let to_xyz = spaces.input_space.space().with_white(Chromaticity::black_body_6500_k()).to_xyz()?;
         Ok(Self {
+            codes: CodeLight::default(),
             coverage: Coverage::Kept,
             coding: input.coding_of(picture),
             stored_alpha: picture.stored_alpha,
@@ -279,8 +283,14 @@ impl PictureLight {
         seen: Option<&mut LightSeen>,
         change: impl Fn(&mut [f32; 3]) + Sync,
     ) {
+        let is_large = band.width() * band.rows() >= CodeLight::COUNT;
+        let codes = (is_large && !self.coding.is_linear()).then(|| self.codes.made(|rgb| self.coding.light(rgb)));
         let rows = band.rows_mut().map(|mut row| {
-            if !self.coding.is_linear() {
+            if let Some(codes) = codes {
+                row.rgb
+                    .iter_mut()
+                    .for_each(|rgb| *rgb = looked_up(codes, *rgb).unwrap_or_else(|| self.coding.light(*rgb)));
+            } else if !self.coding.is_linear() {
                 row.rgb.iter_mut().for_each(|rgb| *rgb = self.coding.light(*rgb));
             }
             self.coverage.apply(&mut row, self.stored_alpha);
