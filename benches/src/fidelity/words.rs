@@ -131,8 +131,8 @@ figure with a source was found; 0.5 to 1 % is assumed. Who wants it adds it to t
 pub(super) const WAYS: &str = "\
 ## A negative printed and scanned
 
-The same negative on print film, on paper, and as a scan inverted by the rule of the Cineon system \\[Kennel1995\\] (`Scan` in
-onelight-printing: status M densities above the base are the logarithm of light by a gamma of 0.6, the base is black, grey is balanced):
+The same negative on print film, on paper, and as a scan inverted by the rule of the Cineon system \\[Kennel1995\\]
+(`--print scan`: status M densities above the base are the logarithm of light by a gamma of 0.6, the base is black, grey is balanced):
 gamma at a grey card, median chroma and turn of the ColorChecker's colours, largest C* of greys from -4 to +2 stops, and stops at which
 grey reaches the display's white.
 
