@@ -1,11 +1,12 @@
-//! Making a look ready: compiling a process, and setting the printer's lights.
+//! Making a look ready: compiling a process, setting the printer's lights, and following a setting that moves.
 
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use onelight::film::{AmountCurve, PerLayer};
-use onelight::printing::{Duplication, Printer};
-use onelight::stock;
+use onelight::lut::DirectForm;
+use onelight::printing::{Duplication, Printer, White};
+use onelight::{Aim, DirectSettings, FilmProcess, LiveDirect, stock};
 use onelight_benches::{NEGATIVE, PROCESSES, film};
 
 fn compile(c: &mut Criterion) {
@@ -28,5 +29,48 @@ fn calibrate(c: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, compile, calibrate);
+/// From a setting that was moved, and moved back, to the numbers that draw: two direct forms, with the feature `gpu` one as bytes for a card.
+fn follow(c: &mut Criterion) {
+    let mut group = c.benchmark_group("follow a setting");
+    group.sample_size(10);
+    let usual = FilmProcess::for_camera(NEGATIVE).expect("a built-in film");
+    let changed = |change: fn(&mut FilmProcess)| {
+        let mut process = usual.clone();
+        change(&mut process);
+        process
+    };
+    let points = |process: &mut FilmProcess| {
+        if let Some(print) = &mut process.print {
+            print.points = [2.0, 0.0, -1.0];
+        }
+    };
+    let white = |process: &mut FilmProcess| process.white = White::Lamp;
+    for (name, moved) in [
+        ("points", changed(points)),
+        ("aim", changed(|process| process.aim = Aim::Sheet)),
+        ("white", changed(white)),
+        ("density of grey", changed(|process| process.neutral_density = 0.9)),
+    ] {
+        let mut live = LiveDirect::new(&usual, DirectSettings::default()).expect("a built-in process is fitted");
+        group.bench_function(name, |b| {
+            b.iter(|| {
+                live.change(black_box(&moved)).expect("the setting is allowed");
+                for_card(live.form());
+                live.change(black_box(&usual)).expect("the setting is allowed");
+            });
+        });
+    }
+}
+
+#[cfg(feature = "gpu")]
+fn for_card(form: &DirectForm) {
+    black_box(onelight_gpu::LookBytes::new(form, onelight::lut::Storage::F32).expect("the form fits a card"));
+}
+
+#[cfg(not(feature = "gpu"))]
+fn for_card(form: &DirectForm) {
+    black_box(form);
+}
+
+criterion_group!(benches, compile, calibrate, follow);
 criterion_main!(benches);

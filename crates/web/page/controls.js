@@ -71,14 +71,12 @@ export class Controls {
       const turn = this.slider(`points-${i}`, POINTS, set, (keys) => keys.points[i], `${name} printer light in points`);
       turn.prepend(element("label", { htmlFor: `points-${i}`, textContent: name }));
       box.append(turn);
-      this.updates.push((keys) => turn.querySelectorAll("input").forEach((input) => (input.disabled = keys.print === "none")));
+      this.updates.push((keys) => turn.querySelectorAll("input").forEach((input) => (input.disabled = ["none", "scan"].includes(keys.print))));
     }
     const hint = element("p", { className: "hint" });
     this.updates.push((keys) => {
-      hint.textContent =
-        keys.print === "none"
-          ? "Reversal and instant film is not printed: there are no lights to set."
-          : "In points of 1/12 stop: more red light makes the print more cyan. Eight points are a plain colour cast.";
+      const unprinted = { none: "Reversal and instant film is not printed: there are no lights to set.", scan: "A scan is balanced on grey by its rule: there are no lights to set." };
+      hint.textContent = unprinted[keys.print] ?? "In points of 1/12 stop: more red light makes the print more cyan. Eight points are a plain colour cast.";
     });
     box.append(hint);
     return box;

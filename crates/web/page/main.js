@@ -126,7 +126,7 @@ class Darkroom {
       const film = this.films.find((film) => film.id === id.split("@")[0]);
       return film?.name ?? id;
     };
-    return print === "none" ? name(camera) : `${name(camera)} on ${name(print)}`;
+    return { none: name(camera), scan: `${name(camera)}, scanned` }[print] ?? `${name(camera)} on ${name(print)}`;
   }
 
   drawnBy() {

@@ -6,6 +6,9 @@ import { Cancelled } from "./pool.js";
 /** Films are fitted anew so long after the last turn of a control. */
 const PAUSE_MS = 120;
 
+/** What a negative is seen on without a film to print on. */
+const SCAN = { id: "scan", name: "A scan, inverted", kind_name: "no print", note: "light of the negative, gamma 0.6", about: "The negative's densities, inverted by the rule of the Cineon system" };
+
 export class Strip {
   constructor(films, state, looks, pool) {
     Object.assign(this, { films, state, looks, pool });
@@ -37,12 +40,10 @@ export class Strip {
       list.setAttribute("aria-label", name);
       box.append(element("h3", { textContent: name }), list);
       for (const film of members) {
-        const button = element("button", { type: "button", className: "film", title: about(film) });
+        const button = element("button", { type: "button", className: "film", title: film.about ?? about(film) });
         const canvas = element("canvas", { width: 1, height: 1 });
         canvas.setAttribute("aria-hidden", "true");
-        const speed = film.exposure_index ? `, EI ${film.exposure_index}` : "";
-        const gaps = film.derived.length ? `stands in: ${film.derived.join(", ")}` : "all published";
-        button.append(canvas, film.name, element("small", { textContent: `${film.year}${speed}; ${gaps}` }));
+        button.append(canvas, film.name, element("small", { textContent: film.note ?? note(film) }));
         button.addEventListener("click", () => this.choose(keys(film)));
         list.append(button);
         this.watcher.observe(button);
@@ -63,7 +64,7 @@ export class Strip {
 
   listPrints() {
     const camera = this.films.find((film) => film.id === this.state.keys.camera.split("@")[0]);
-    const offered = this.films.filter((film) => camera?.prints.includes(film.id));
+    const offered = [...this.films, SCAN].filter((film) => camera?.prints.includes(film.id));
     document.getElementById("prints-title").hidden = offered.length === 0;
     document.getElementById("prints-title").textContent = `${camera?.name ?? "The film"} on other prints`;
     if (this.printsOf !== camera?.id) {
@@ -127,6 +128,13 @@ export class Strip {
     Object.assign(canvas, { width, height });
     canvas.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(codes.buffer, codes.byteOffset, codes.length), width, height), 0, 0);
   }
+}
+
+/** Year, speed, and what of its figures is not published. */
+function note(film) {
+  const speed = film.exposure_index ? `, EI ${film.exposure_index}` : "";
+  const gaps = film.derived.length ? `stands in: ${film.derived.join(", ")}` : "all published";
+  return `${film.year}${speed}; ${gaps}`;
 }
 
 /** What its data sheet says of a film, in lines. */

@@ -100,6 +100,12 @@ await test("a film is chosen from the strip, and its prints follow", async () =>
   assert.ok((await page.locator("#prints button").count()) > 5);
   await turned(page, () => page.click("#prints button:has-text('2393')"));
   assert.match(decodeURIComponent(page.url()), /print = "kodak-2393"/);
+  await turned(page, () => page.click("#prints button:has-text('A scan')"));
+  assert.match(decodeURIComponent(page.url()), /print = "scan"/);
+  assert.equal(await page.locator("#points-0").isDisabled(), true);
+  await keep(page, "shown");
+  await keepFile(page, "expected", await develop("--camera", "kodak-portra-400", "--print", "scan"));
+  assert.ok((await difference(page, "shown", "expected")) <= 1, "a scan");
   await turned(page, () => page.click("#reset"));
 });
 

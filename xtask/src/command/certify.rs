@@ -64,6 +64,7 @@ fn forms() -> Vec<(&'static str, Recipe)> {
         ("direct 6 + 3", counts(6, 3)),
         ("direct 8 + 4", counts(8, 4)),
         ("direct 10 + 5", counts(10, 5)),
+        ("direct, as it is baked", Recipe::of(Form::Direct)),
         ("structured 32^3, 10 bit", Recipe { storage: Storage::Unorm10, coding: TableCoding::Display, ..structured }),
     ]
 }

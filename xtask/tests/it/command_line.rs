@@ -243,7 +243,9 @@ fn hard_inputs_break_no_limit() {
 fn certificates_are_printed() {
     let folder = tempfile::tempdir().unwrap();
     let text = done(folder.path(), &["certify", "--camera", "fuji-velvia-50", "--colours", "1024"]);
-    for form in ["the talk's 32^3", "plain 33^3", "structured 16^3", "structured 32^3", "direct 10 + 5"] {
+    for form in
+        ["the talk's 32^3", "plain 33^3", "structured 16^3", "structured 32^3", "direct 10 + 5", "direct, as it is"]
+    {
         assert!(text.contains(form), "{text}");
     }
     assert!(done(folder.path(), &["certify", "--buffers"]).contains("7e3"));

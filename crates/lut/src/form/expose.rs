@@ -131,14 +131,17 @@ mod tests {
     fn moved_light_is_light_that_was_moved_before() {
         let balance = [[1.1, 0.02, 0.0], [0.01, 0.95, 0.03], [0.0, -0.05, 1.3]];
         for expose in [compress(), Expose::by(MIXED), Expose { input: balance, ..compress() }] {
+            // In float64, in which the moved numbers' own rounding to float32 is all that differs; a logarithm of float32 near 8 is
+            // rounded by half of 1e-6 itself.
+            let of = |expose: &Expose, light: [f64; 3]| expose.log2_in(light);
             for light in [[0.18, 0.2, 0.3], [4.0, 0.01, 0.7], [-0.1, 0.5, 0.4], [1e-3, 2e-3, 90.0]] {
                 for (found, wanted) in [
-                    (expose.brighter(-2.5).log2(light), expose.log2(light.map(|v| v * (-2.5_f32).exp2()))),
-                    (expose.after(&balance).log2(light), expose.log2(times(&balance, light))),
-                    (expose.brighter(1.0).brighter(-1.0).log2(light), expose.log2(light)),
+                    (of(&expose.brighter(-2.5), light), of(&expose, light.map(|v| v * (-2.5_f64).exp2()))),
+                    (of(&expose.after(&balance), light), of(&expose, times(&balance, light))),
+                    (of(&expose.brighter(1.0).brighter(-1.0), light), of(&expose, light)),
                 ] {
                     for (found, wanted) in found.into_iter().zip(wanted) {
-                        assert!((found - wanted).abs() < 2e-6, "{found} {wanted}");
+                        assert!((found - wanted).abs() < 1e-6, "{found} {wanted}");
                     }
                 }
             }
