@@ -52,6 +52,9 @@ pub(super) fn refine(near: Sum, samples: &[Sample]) -> Sum {
     descend(near, samples, &NEAR)
 }
 
+/// The difference (CIEDE2000) by which a sum may miss a colour before it takes another term, or is fitted from the beginning.
+pub(super) const LARGEST_MISS: f64 = 0.1;
+
 /// How far a sum misses each sample, in the unit of colour differences.
 pub(super) fn misses(sum: &Sum, samples: &[Sample]) -> Vec<f64> {
     samples.par_iter().with_min_len(BLOCK).map(|s| (s.seen * (sum.at(&s.at) - s.target)).norm()).collect()

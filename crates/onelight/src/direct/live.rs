@@ -3,7 +3,7 @@
 use nalgebra::Matrix3;
 use onelight_lut::DirectForm;
 
-use super::fit::{misses, refine};
+use super::fit::{LARGEST_MISS, misses, refine};
 use super::settings::{DirectSettings, Nodes};
 use super::stages::Stages;
 use super::sum::{Sum, Term};
@@ -53,9 +53,6 @@ struct Fitted {
 
 /// Colours that a sum which is not fitted anew is fitted to: an eighth as many as otherwise.
 const COLOURS: usize = 128;
-
-/// The difference (CIEDE2000) by which such a sum may miss one of them.
-const LARGEST_MISS: f64 = 0.1;
 
 impl LiveDirect {
     /// Compiles the process and makes its direct form.

@@ -24,7 +24,8 @@ pub enum Nodes {
     GridUnderMaxDe(f64),
     /// Ten exponentials from the dye on the screen to linear RGB and five from a negative to its print, fitted as those of [`Nodes::Counts`];
     /// where they would miss one of five thousand other colours by more than 0.1 (CIEDE2000), as steep papers show it, more of them, up to
-    /// twelve and eight. For a scan ten to twelve from the negative and the four of its rule. A card's shader has room for as many without more time; a processor takes a fifteenth more time for each.
+    /// twelve and eight. For a scan ten to twelve from the negative and the four of its rule. Each takes its time for every pixel, on a processor and
+    /// on a card: docs/speed.md and docs/gpu.md count it.
     Usual,
     /// So many exponentials, fitted to the film over all that light can reach: a tenth of a second. Rates and weights are free;
     /// they belong to no wavelength, and weights may be negative.

@@ -3,7 +3,7 @@ use std::ops::RangeInclusive;
 use onelight_film::LogExposure;
 use onelight_lut::{DirectForm, DirectParts, DirectPrint};
 
-use super::fit::{fit, misses};
+use super::fit::{LARGEST_MISS, fit, misses};
 use super::settings::Nodes;
 use super::sum::Sum;
 use super::training::{Sample, Training};
@@ -54,9 +54,7 @@ impl Stages {
     }
 }
 
-/// The difference (CIEDE2000) by which a sum may miss a colour before another term is added.
-const LARGEST_MISS: f64 = 0.1;
-
+/// `full` by the fewest terms of `counts` with which no judge is missed by more than [`LARGEST_MISS`], or by the most.
 fn near(full: &Sum, samples: &[Sample], judges: &[Sample], counts: RangeInclusive<usize>) -> Sum {
     let mut sum = fit(full, samples, *counts.start());
     for count in counts.skip(1) {
